@@ -1,0 +1,40 @@
+# cmake/rooms.json is the plan of the house: which room stands on which floor and may use which.
+# A library that is not in the plan may use what it declares, and stands above all of it.
+
+# Stops when a component declares a dependency that the plan forbids.
+function(_gslam_check_room name depends)
+  _gslam_room(${name} floor may_use)
+  if(floor STREQUAL "")
+    return()
+  endif()
+  while(depends)
+    list(POP_FRONT depends dependency version)
+    if(NOT dependency IN_LIST may_use)
+      string(REPLACE ";" ", " may_use "${may_use}")
+      message(FATAL_ERROR "gslam_component(${name}): ${name} may not use ${dependency}; "
+        "cmake/rooms.json allows it: ${may_use}")
+    endif()
+  endwhile()
+endfunction()
+
+# Floor and may_use of a room; both empty when the plan does not have it.
+function(_gslam_room name floor_out may_use_out)
+  set(${floor_out} "" PARENT_SCOPE)
+  set(${may_use_out} "" PARENT_SCOPE)
+  set(plan "${GSLAM_CMAKE_DIR}/rooms.json")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${plan}")
+  file(READ "${plan}" json)
+  string(JSON count LENGTH "${json}" rooms)
+  math(EXPR last "${count} - 1")
+  foreach(i RANGE ${last})
+    string(JSON room GET "${json}" rooms ${i} name)
+    if(room STREQUAL name)
+      string(JSON floor GET "${json}" rooms ${i} floor)
+      string(JSON may_use GET "${json}" rooms ${i} may_use)
+      string(REGEX MATCHALL "[a-z_*]+" may_use "${may_use}")
+      set(${floor_out} ${floor} PARENT_SCOPE)
+      set(${may_use_out} "${may_use}" PARENT_SCOPE)
+      return()
+    endif()
+  endforeach()
+endfunction()

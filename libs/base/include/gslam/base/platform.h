@@ -1,0 +1,118 @@
+// Everything that depends on the compiler or the processor architecture stands in this file.
+#ifndef GSLAM_BASE_PLATFORM_H
+#define GSLAM_BASE_PLATFORM_H
+
+#include <cstdlib>
+#include <string>
+
+#if defined(__GNUC__) || defined(__clang__)
+#include <cxxabi.h>
+#endif
+
+/// @file
+/// Compiler and architecture differences: symbol visibility, SIMD target regions, names of types.
+
+/// @def GSLAM_PUBLIC
+/// Marks a type whose identity must survive shared-library borders (exceptions, messages), so that
+/// a plugin built with hidden visibility can throw it and its host can catch it.
+#if defined(__GNUC__) || defined(__clang__)
+#define GSLAM_PUBLIC __attribute__((visibility("default")))
+#else
+#define GSLAM_PUBLIC
+#endif
+
+/// @def GSLAM_X86
+/// 1 where x86-64 kernels (SSE4, AVX2, AVX-512) can be compiled, else 0.
+/// @def GSLAM_ARM64
+/// 1 where NEON kernels can be compiled, else 0.
+#if (defined(__GNUC__) || defined(__clang__)) && defined(__x86_64__)
+#define GSLAM_X86 1
+#define GSLAM_ARM64 0
+#elif (defined(__GNUC__) || defined(__clang__)) && defined(__aarch64__)
+#define GSLAM_X86 0
+#define GSLAM_ARM64 1
+#else
+#define GSLAM_X86 0
+#define GSLAM_ARM64 0
+#endif
+
+/// @def GSLAM_TARGET_SSE4
+/// Begins a region whose functions are compiled for x86-64-v2 (SSE4.2, POPCNT).
+/// @def GSLAM_TARGET_AVX2
+/// Begins a region whose functions are compiled for x86-64-v3 (AVX2, FMA, BMI2).
+/// @def GSLAM_TARGET_AVX512
+/// Begins a region whose functions are compiled for x86-64-v4 (AVX-512 F, BW, CD, DQ, VL).
+/// @def GSLAM_TARGET_END
+/// Ends a target region.
+///
+/// Regions replace compiler flags, so one file holds all variants of a kernel and nothing is
+/// exported to whoever includes it. Include the intrinsics header before the first region.
+#if GSLAM_X86 && defined(__clang__)
+#define GSLAM_DETAIL_PRAGMA(text) _Pragma(#text)
+#define GSLAM_DETAIL_TARGET(features) \
+  GSLAM_DETAIL_PRAGMA(clang attribute push(__attribute__((target(features))), apply_to = function))
+#define GSLAM_TARGET_END GSLAM_DETAIL_PRAGMA(clang attribute pop)
+#elif GSLAM_X86
+#define GSLAM_DETAIL_PRAGMA(text) _Pragma(#text)
+// g++ 12 warns about uninitialised values inside its own AVX-512 header once it is inlined.
+#define GSLAM_DETAIL_TARGET(features)                           \
+  GSLAM_DETAIL_PRAGMA(GCC push_options)                         \
+  GSLAM_DETAIL_PRAGMA(GCC target features)                      \
+  GSLAM_DETAIL_PRAGMA(GCC diagnostic push)                      \
+  GSLAM_DETAIL_PRAGMA(GCC diagnostic ignored "-Wuninitialized") \
+  GSLAM_DETAIL_PRAGMA(GCC diagnostic ignored "-Wmaybe-uninitialized")
+#define GSLAM_TARGET_END                  \
+  GSLAM_DETAIL_PRAGMA(GCC diagnostic pop) \
+  GSLAM_DETAIL_PRAGMA(GCC pop_options)
+#endif
+#if GSLAM_X86
+#define GSLAM_TARGET_SSE4 GSLAM_DETAIL_TARGET("sse4.2,popcnt")
+#define GSLAM_TARGET_AVX2 GSLAM_DETAIL_TARGET("avx2,fma,bmi,bmi2,popcnt")
+#define GSLAM_TARGET_AVX512 \
+  GSLAM_DETAIL_TARGET("avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,fma,bmi,bmi2,popcnt")
+#endif
+
+namespace gslam {
+inline namespace v1 {
+namespace detail {
+
+/// What the processor and the operating system offer, by x86-64 level (see GSLAM_TARGET_*).
+struct CpuFeatures {
+  bool sse4;
+  bool avx2;
+  bool avx512;
+  bool neon;
+};
+
+inline CpuFeatures detectCpu() {
+  CpuFeatures cpu = {false, false, false, GSLAM_ARM64 == 1};
+#if GSLAM_X86
+  __builtin_cpu_init();
+  cpu.sse4 = __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt");
+  cpu.avx2 = cpu.sse4 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+             __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
+  cpu.avx512 = cpu.avx2 && __builtin_cpu_supports("avx512f") &&
+               __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") &&
+               __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+#endif
+  return cpu;
+}
+
+// The name of a type as people write it, from std::type_info::name().
+inline std::string readableTypeName(const char* name) {
+#if defined(__GNUC__) || defined(__clang__)
+  int status = 0;
+  char* const readable = abi::__cxa_demangle(name, nullptr, nullptr, &status);
+  std::string text = status == 0 ? readable : name;
+  std::free(readable);  // NOLINT(cppcoreguidelines-no-malloc): its contract asks for free()
+  return text;
+#else
+  return name;
+#endif
+}
+
+}  // namespace detail
+}  // namespace v1
+}  // namespace gslam
+
+#endif  // GSLAM_BASE_PLATFORM_H
