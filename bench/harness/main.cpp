@@ -4,6 +4,7 @@
 
 #include <condition_variable>
 #include <mutex>
+#include <string>
 #include <thread>
 
 namespace {
@@ -38,6 +39,16 @@ class SecondThread {
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+#ifdef __OPTIMIZE__
+  benchmark::AddCustomContext("code_build_type", "release");
+#else
+  benchmark::AddCustomContext("code_build_type", "debug");
+#endif
+#if defined(__clang__)
+  benchmark::AddCustomContext("compiler", "clang++ " + std::to_string(__clang_major__));
+#elif defined(__GNUC__)
+  benchmark::AddCustomContext("compiler", "g++ " + std::to_string(__GNUC__));
+#endif
   const SecondThread second_thread;
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();

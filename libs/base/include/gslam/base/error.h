@@ -21,6 +21,7 @@ inline namespace v1 {
 /// Base of every exception that GSLAM throws on purpose; `what()` is a sentence for people.
 class GSLAM_PUBLIC Error : public std::runtime_error {
  public:
+  /// @param message  a sentence: what was wrong and what was expected
   explicit Error(const std::string& message) : std::runtime_error(message) {}
 };
 
@@ -32,6 +33,7 @@ class GSLAM_PUBLIC ArgumentError : public Error {
   ArgumentError(const std::string& argument, const std::string& problem)
       : Error(argument + " " + problem), argument_(std::make_shared<std::string>(argument)) {}
 
+  /// Name of the argument.
   const std::string& argument() const noexcept { return *argument_; }
 
  private:
@@ -41,14 +43,19 @@ class GSLAM_PUBLIC ArgumentError : public Error {
 /// A file or folder that cannot be opened, read or written.
 class GSLAM_PUBLIC FileError : public Error {
  public:
+  /// @param path     the file or folder
+  /// @param problem  what was wrong and what was expected, e.g. "is empty"
   FileError(const std::string& path, const std::string& problem)
       : Error(path + ": " + problem), path_(std::make_shared<std::string>(path)) {}
 
   /// Adds the operating system's reason.
+  /// @param path          the file or folder
+  /// @param problem       what failed, e.g. "cannot be opened"
   /// @param error_number  `errno` as it was right after the failed call
   FileError(const std::string& path, const std::string& problem, int error_number)
       : FileError(path, problem + ": " + std::generic_category().message(error_number)) {}
 
+  /// The file or folder.
   const std::string& path() const noexcept { return *path_; }
 
  private:
@@ -70,9 +77,12 @@ class GSLAM_PUBLIC ParseError : public Error {
         line_(line),
         column_(column) {}
 
+  /// @{
+  /// The place, as given to the constructor.
   const std::string& source() const noexcept { return *source_; }
   std::size_t line() const noexcept { return line_; }
   std::size_t column() const noexcept { return column_; }
+  /// @}
 
  private:
   static std::string place(const std::string& source, std::size_t line, std::size_t column) {

@@ -30,10 +30,10 @@ inline const char* logLevelName(LogLevel level) {
 
 /// What a sink gets.
 struct LogRecord {
-  LogLevel level;
-  const char* file;  ///< source file; lives as long as the code that wrote the record
-  int line;
-  std::string message;
+  LogLevel level;       ///< how much it matters
+  const char* file;     ///< source file; lives as long as the code that wrote the record
+  int line;             ///< line in that file, from 1
+  std::string message;  ///< what was written, as it is
 };
 
 /// Takes records. It is called in the thread that logs, without a lock held, and from several

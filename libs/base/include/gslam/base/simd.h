@@ -102,6 +102,7 @@ inline void forceSimd(Simd variant) {
 /// Forces a variant for the length of a scope and restores the one before.
 class ScopedSimd {
  public:
+  /// @throws ArgumentError when this machine does not run it
   explicit ScopedSimd(Simd variant) : before_(activeSimd()) { forceSimd(variant); }
   ~ScopedSimd() { detail::activeSimdSlot().store(static_cast<int>(before_)); }
   ScopedSimd(const ScopedSimd&) = delete;

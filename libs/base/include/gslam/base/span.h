@@ -42,18 +42,25 @@ using EnableIfViewable = typename std::enable_if<
 template <class T>
 class Span {
  public:
+  /// @{
+  /// As in std::span.
   using element_type = T;
   using value_type = typename std::remove_cv<T>::type;
   using size_type = std::size_t;
   using iterator = T*;
+  /// @}
 
+  /// Views nothing.
   constexpr Span() noexcept : data_(nullptr), size_(0) {}
+  /// Views `size` elements from `data` on.
   constexpr Span(T* data, std::size_t size) noexcept : data_(data), size_(size) {}
 
+  /// Views a C array.
   template <std::size_t N>
   constexpr Span(T (&array)[N]) noexcept  // NOLINT(google-explicit-constructor)
       : data_(array), size_(N) {}
 
+  /// @{
   /// Views anything with contiguous `data()` and `size()`: vector, array, string, cv::Mat_ rows...
   /// A temporary binds to `Span<const T>` only for the length of the call it is an argument of.
   template <class C, class = detail::EnableIfViewable<C, T>>
@@ -63,21 +70,29 @@ class Span {
   template <class C, class = detail::EnableIfViewable<const C, T>>
   constexpr Span(const C& container)  // NOLINT(google-explicit-constructor)
       : data_(container.data()), size_(container.size()) {}
+  /// @}
 
+  /// Views the same elements as const.
   template <class U, class = typename std::enable_if<std::is_convertible<U (*)[], T (*)[]>::value &&
                                                      !std::is_same<U, T>::value>::type>
   constexpr Span(const Span<U>& other) noexcept  // NOLINT(google-explicit-constructor)
       : data_(other.data()), size_(other.size()) {}
 
+  /// @{
+  /// As in std::span.
   constexpr T* data() const noexcept { return data_; }
   constexpr std::size_t size() const noexcept { return size_; }
   constexpr bool empty() const noexcept { return size_ == 0; }
   constexpr T* begin() const noexcept { return data_; }
   constexpr T* end() const noexcept { return data_ + size_; }
+  /// @}
 
+  /// @{
+  /// Unchecked: the element must be there.
   constexpr T& operator[](std::size_t i) const noexcept { return data_[i]; }
   T& front() const noexcept { return data_[0]; }
   T& back() const noexcept { return data_[size_ - 1]; }
+  /// @}
 
   /// @throws ArgumentError when `i >= size()`
   T& at(std::size_t i) const {
@@ -100,11 +115,15 @@ class Span {
     return Span(data_ + offset, size_ - offset);
   }
 
+  /// @{
+  /// The first or last `count` elements.
+  /// @throws ArgumentError when there are fewer
   Span first(std::size_t count) const { return subspan(0, count); }
   Span last(std::size_t count) const {
     if (count > size_) fail("count", count);
     return Span(data_ + (size_ - count), count);
   }
+  /// @}
 
  private:
   [[noreturn]] void fail(const char* name, std::size_t value) const {
