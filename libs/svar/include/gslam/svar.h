@@ -1,0 +1,11 @@
+#ifndef GSLAM_SVAR_H
+#define GSLAM_SVAR_H
+
+/// @file
+/// All of GSLAM::svar.
+
+#include <gslam/svar/error.h>
+#include <gslam/svar/svar.h>
+#include <gslam/svar/version.h>
+
+#endif  // GSLAM_SVAR_H

@@ -1,0 +1,35 @@
+#ifndef GSLAM_SVAR_ERROR_H
+#define GSLAM_SVAR_ERROR_H
+
+#include <gslam/base/error.h>
+
+#include <memory>
+#include <string>
+
+/// @file
+/// The exception of Svar.
+
+namespace gslam {
+inline namespace v1 {
+
+/// A value that is missing, has another type than asked for, or may not stand where it was put.
+class GSLAM_PUBLIC SvarError : public Error {
+ public:
+  /// The message reads `path: problem`, or just the problem where there is no path.
+  /// @param path     the whole path as the caller wrote it, e.g. "camera.0.fx"; may be empty
+  /// @param problem  what was expected and what was found
+  SvarError(const std::string& path, const std::string& problem)
+      : Error(path.empty() ? problem : path + ": " + problem),
+        path_(std::make_shared<std::string>(path)) {}
+
+  /// The path (or the one name or index) that was asked for; empty where there was none.
+  const std::string& path() const noexcept { return *path_; }
+
+ private:
+  std::shared_ptr<const std::string> path_;  // shared, so that copying never throws
+};
+
+}  // namespace v1
+}  // namespace gslam
+
+#endif  // GSLAM_SVAR_ERROR_H

@@ -1,0 +1,282 @@
+#ifndef GSLAM_SVAR_SVAR_H
+#define GSLAM_SVAR_SVAR_H
+
+#include <gslam/base/platform.h>
+#include <gslam/base/span.h>
+#include <gslam/svar/error.h>
+#include <gslam/svar/number.h>
+#include <gslam/svar/ordered_map.h>
+#include <gslam/svar/path.h>
+#include <gslam/svar/text.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+/// @file
+/// Svar: one value for parameters and configuration.
+
+namespace gslam {
+inline namespace v1 {
+
+/// What a Svar holds.
+enum class SvarType : unsigned char {
+  null,
+  boolean,
+  integer,  ///< int64
+  real,     ///< double
+  string,   ///< bytes, by convention UTF-8
+  array,
+  object  ///< named members in the order of insertion
+};
+
+/// One value whose type is known at run time: null, bool, int64, double, string, array or object.
+///
+/// **Sharing.** Null, bool, numbers and strings are values. An array or object is a handle: copies
+/// of it are the same array, and a change through one is seen through all. clone() makes an
+/// independent one. A null shares nothing, so a null that becomes an object by set() does so in
+/// that one handle.
+///
+/// **Writing** goes through set(), push_back() and erase(), never through references: reading
+/// creates nothing, and an array or object that would contain itself is refused. So comparing,
+/// cloning and destroying always end, and none of them recurses, however deep the value is.
+///
+/// **Paths** name what is inside: "camera.0.fx" is member "fx" of element 0 of member "camera". A
+/// name that has a dot in it or is empty is reached by operator[] only. A malformed path is always
+/// an SvarError. Names and paths are taken from literals, `std::string` or `std::string_view`.
+///
+/// **Numbers** convert where the value stays the same: 3.0 is an int, 2.75 is not, 300 is no int8,
+/// 2^53 + 1 is no double. The one exception is float, which takes a double by rounding, but not
+/// beyond its range. A bool is no number, and text is never parsed.
+///
+/// **Threads.** Const functions may run at the same time, also on handles of the same array or
+/// object. Writing while another thread reads or writes any handle of the same array or object is a
+/// data race: give the other thread a clone().
+class GSLAM_PUBLIC Svar {
+ public:
+  /// Name and value of a member of an object.
+  using Member = std::pair<std::string, Svar>;
+  /// Goes through the elements of an array; writing to the array invalidates it.
+  using const_iterator = const Svar*;
+
+  /// Null.
+  Svar() noexcept : number_(std::int64_t(0)), type_(SvarType::null) {}
+  /// Null.
+  Svar(std::nullptr_t) noexcept : Svar() {}  // NOLINT(google-explicit-constructor)
+
+  /// A bool. Nothing else, such as a pointer, converts to it.
+  template <class T, detail::EnableIf<std::is_same<T, bool>::value> = 0>
+  Svar(T value) noexcept  // NOLINT(google-explicit-constructor)
+      : number_(std::int64_t(value ? 1 : 0)), type_(SvarType::boolean) {}
+
+  /// An integer of any width; `char` is none.
+  /// @throws SvarError for an unsigned value above the largest int64
+  template <class T, detail::EnableIf<detail::IsInteger<T>::value> = 0>
+  Svar(T value)  // NOLINT(google-explicit-constructor)
+      : number_(detail::toInt64(value)), type_(SvarType::integer) {}
+
+  /// A float or double.
+  template <class T, detail::EnableIf<detail::IsReal<T>::value> = 0>
+  Svar(T value) noexcept  // NOLINT(google-explicit-constructor)
+      : number_(static_cast<double>(value)), type_(SvarType::real) {}
+
+  /// A string.
+  Svar(std::string value)  // NOLINT(google-explicit-constructor)
+      : Svar(SvarType::string, std::make_shared<std::string>(std::move(value))) {}
+  /// A string.
+  /// @throws SvarError for a null pointer
+  Svar(const char* value);  // NOLINT(google-explicit-constructor)
+
+  /// A new array: `Svar::array({1, "two", 3.0})`.
+  static Svar array(std::initializer_list<Svar> elements = {});
+  /// A new object: `Svar::object({{"fps", 30}, {"name", "left"}})`.
+  /// @throws SvarError when a name stands there twice
+  static Svar object(std::initializer_list<Member> members = {});
+
+  /// Shares an array or object, copies anything else.
+  Svar(const Svar&) = default;
+  /// Leaves null behind.
+  Svar(Svar&& other) noexcept
+      : number_(other.number_), type_(other.type_), data_(std::move(other.data_)) {
+    other.type_ = SvarType::null;
+  }
+  /// Makes this handle hold the other value; what it held is unchanged in its other handles.
+  Svar& operator=(Svar other) & noexcept {
+    swap(other);
+    return *this;
+  }
+  /// Exchanges what the two handles hold.
+  void swap(Svar& other) noexcept {
+    std::swap(number_, other.number_);
+    std::swap(type_, other.type_);
+    data_.swap(other.data_);
+  }
+  /// A copy that shares no array or object with this one. What is held n times inside becomes n
+  /// clones.
+  Svar clone() const;
+
+  /// What is stored, whatever it may convert to.
+  SvarType type() const noexcept { return type_; }
+  /// "null", "bool", "int", "double", "string", "array" or "object".
+  const char* typeName() const noexcept;
+  /// Whether nothing is stored.
+  bool isNull() const noexcept { return type_ == SvarType::null; }
+
+  /// Whether as<T>() would succeed.
+  template <class T>
+  bool is() const;
+  /// The value as a T: bool, an integer type, float, double, std::string or Svar (a handle).
+  /// @throws SvarError that names the type found and T, when the value is not exactly a T
+  template <class T>
+  T as() const;
+
+  /// The number of elements or members; 0 for null.
+  /// @throws SvarError for anything else
+  std::size_t size() const;
+
+  /// The member of that name (not path), as a handle.
+  /// @throws SvarError when this is no object or has no such member
+  Svar operator[](detail::Text name) const;
+  /// The element at that index from 0, as a handle.
+  /// @throws SvarError when this is no array or has no such element
+  template <class I, detail::EnableIf<detail::IsInteger<I>::value> = 0>
+  Svar operator[](I index) const;
+
+  /// Whether something, be it null, stands at the path.
+  bool contains(detail::Text path) const { return walk(path).found; }
+
+  /// The value at the path as a T, by the rules of as<T>().
+  /// @throws SvarError that names the whole path, T and what was found, when nothing stands there
+  ///         or it is not exactly a T
+  template <class T>
+  T get(detail::Text path) const;
+  /// The same, or `fallback` where nothing stands at the path. A null counts as something at the
+  /// end of the path, and as an object without members on the way.
+  /// @throws SvarError when what stands there is no T, or a value on the way cannot have such a
+  ///         part (a member of a number, a name in an array)
+  template <class T>
+  T get(detail::Text path, const typename std::common_type<T>::type& fallback) const;
+
+  /// Puts the value at the path. Makes the objects that are missing on the way, also in place of
+  /// nulls; never makes or lengthens an array. Nothing is changed where it throws SvarError.
+  /// @throws SvarError when a value on the way can have no such part, or would contain itself
+  void set(detail::Text path, Svar value) &;
+
+  /// Appends to an array; a null becomes an array first.
+  /// @throws SvarError when this is neither, or the array would contain itself
+  void push_back(Svar value) &;
+
+  /// Removes what stands at the path; later elements move up. False where nothing stood there.
+  bool erase(detail::Text path) &;
+
+  /// First element of an array. A null is as an empty array.
+  /// @throws SvarError for anything else
+  const_iterator begin() const;
+  /// Past the last element.
+  /// @throws SvarError when this is neither array nor null
+  const_iterator end() const;
+  /// The members of an object in the order of insertion; writing to it invalidates them. A null is
+  /// as an empty object.
+  /// @throws SvarError for anything else
+  Span<const Member> members() const;
+
+  /// Same type and same value all the way down; 1 and 1.0 differ. The order of members does not
+  /// count. NaN differs from itself, but an array or object equals itself whatever is inside.
+  friend bool operator==(const Svar& a, const Svar& b) { return a.equals(b); }
+  /// Not ==.
+  friend bool operator!=(const Svar& a, const Svar& b) { return !a.equals(b); }
+
+ private:
+  using Array = std::vector<Svar>;
+  using Object = detail::OrderedMap<Svar>;
+
+  union Number {
+    explicit Number(std::int64_t value) noexcept : integer(value) {}
+    explicit Number(double value) noexcept : real(value) {}
+    std::int64_t integer;  // also bool, as 0 or 1
+    double real;
+  };
+
+  // What the handles of an array or object share. Its destructor does not recurse.
+  template <class Parts>
+  struct Node {
+    explicit Node(const Parts& initial) : parts(initial) {}
+    ~Node() { releaseContainers(parts); }
+    Parts parts;
+  };
+
+  // How far a path leads.
+  struct Walk {
+    detail::PathReader reader;  // at the name that was not found, or at the last
+    const Svar* at;             // the last value that was found
+    const Svar* container;      // the last array or object that a name was looked up in, or null
+    bool shared;                // whether an array or object on the way has other handles
+    bool found;                 // whether the whole path was
+  };
+
+  Svar(SvarType type, std::shared_ptr<void> data) noexcept
+      : number_(std::int64_t(0)), type_(type), data_(std::move(data)) {}
+
+  // These are const as data_ is: a handle points to what it does not own alone.
+  const std::string& asString() const { return *static_cast<const std::string*>(data_.get()); }
+  Array& asArray() const { return static_cast<Node<Array>*>(data_.get())->parts; }
+  Object& asObject() const { return static_cast<Node<Object>*>(data_.get())->parts; }
+
+  bool isContainer() const noexcept { return type_ >= SvarType::array; }
+  bool isShared() const noexcept { return isContainer() && data_.use_count() > 1; }
+
+  template <class F>
+  static void forEachContainer(Array& parts, F f);
+  template <class F>
+  static void forEachContainer(Object& parts, F f);
+  template <class F>
+  void forEachContainer(F f) const;
+  template <class Parts>
+  static void releaseContainers(Parts& parts) noexcept;
+  static std::vector<Svar>*& pendingOnThisThread() noexcept;
+
+  using List = std::vector<const Svar*>;
+  void detach();
+  bool reaches(const void* container) const;
+  bool insertInto(List& sorted) const;
+  bool equals(const Svar& other) const;
+  static bool equalHeads(const Svar& a, const Svar& b, List& todo);
+  static bool equalParts(const Svar& a, const Svar& b, List& todo);
+
+  bool read(bool& out) const;
+  bool read(std::string& out) const;
+  bool read(Svar& out) const;
+  template <class T>
+  bool read(T& out) const;
+  template <class T>
+  T readOrThrow(detail::Text path) const;
+
+  Svar* child(detail::Text name) const;
+  bool mayHave(detail::Text name) const;
+  Svar& makeChild(detail::Text name);
+  Walk walk(detail::Text path) const;
+
+  std::string describe() const;
+  [[noreturn]] void failType(detail::Text path, const std::string& expected) const;
+  template <class T>
+  [[noreturn]] static void failMissing(detail::Text path, const Walk& end);
+  [[noreturn]] void failMissing(const std::string& path, const std::string& problem,
+                                detail::Text name, detail::Text where) const;
+
+  Number number_;
+  SvarType type_;
+  std::shared_ptr<void> data_;  // string (never changed), Array or Object, as type_ says
+};
+
+}  // namespace v1
+}  // namespace gslam
+
+#include <gslam/svar/svar_deep.h>
+#include <gslam/svar/svar_impl.h>
+
+#endif  // GSLAM_SVAR_SVAR_H
