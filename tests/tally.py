@@ -1,0 +1,52 @@
+#!/usr/bin/env python3
+"""Counts test results, in the JUnit files that ctest writes.
+
+usage: tally.py RESULTS_XML...            counts of these files; exit status 0 whatever they are
+       tally.py --total RESULTS_XML...    the failures by name, then the line `N passed, N failed,
+                                          N skipped`; exit status 1 when any failed or none passed
+       tally.py --passed|--failed RESULTS_XML NAME   writes a file with one result
+"""
+
+import pathlib
+import sys
+import xml.etree.ElementTree as ElementTree
+
+
+def read(path):
+    """(passed, failed names, skipped) of one file; a file that cannot be read is a failure."""
+    try:
+        cases = ElementTree.parse(path).getroot().findall("testcase")
+    except (OSError, ElementTree.ParseError) as error:
+        return 0, [f"{path}: {error}"], 0
+    failed = [case.get("name") for case in cases if case.get("status") == "fail"]
+    skipped = sum(case.get("status") in ("notrun", "disabled") for case in cases)
+    return len(cases) - len(failed) - skipped, failed, skipped
+
+
+def write(path, name, status):
+    suite = ElementTree.Element("testsuite", name=name, tests="1")
+    ElementTree.SubElement(suite, "testcase", name=name, status=status)
+    pathlib.Path(path).parent.mkdir(parents=True, exist_ok=True)
+    ElementTree.ElementTree(suite).write(path)
+
+
+def main(arguments):
+    if arguments[:1] in (["--passed"], ["--failed"]) and len(arguments) == 3:
+        write(arguments[1], arguments[2], "run" if arguments[0] == "--passed" else "fail")
+        return 0
+    total = arguments[:1] == ["--total"]
+    passed, failed, skipped = 0, [], 0
+    for path in arguments[1 if total else 0:]:
+        counts = read(path)
+        passed += counts[0]
+        failed += [f"{pathlib.Path(path).stem}: {name}" for name in counts[1]]
+        skipped += counts[2]
+    if total:
+        for name in failed:
+            print(f"FAILED {name}")
+    print(f"{passed} passed, {len(failed)} failed, {skipped} skipped")
+    return 1 if total and (failed or not passed) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
