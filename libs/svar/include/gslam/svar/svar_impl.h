@@ -237,7 +237,7 @@ inline bool Svar::erase(detail::Text path) & {
 
 // Type and value, short enough for a message: `int 30`, `string "abc"`, `array of 3`.
 inline std::string Svar::describe() const {
-  const std::string name = typeName();
+  std::string name = typeName();
   if (isNull()) return name;
   if (isContainer()) return name + " of " + std::to_string(size());
   if (type_ == SvarType::boolean) return name + (number_.integer != 0 ? " true" : " false");
