@@ -172,8 +172,22 @@ def wrong_dependency_in_the_plan(house, folder):
     expect_in(["svar may not use messenger", "rooms.json"], result.stdout)
 
 
+def whole_subdirectory(house, folder):
+    """add_subdirectory() of everything: the targets, and nothing else in the user's project."""
+    app = folder / "app"
+    write_consumer(app, f"add_subdirectory(\"{house.source}\" gslam)",
+                   [f"GSLAM::{name}" for name in house.components], house.example("messenger"))
+    build_and_run(app)
+    cache = (app / "build" / "CMakeCache.txt").read_text(encoding="utf-8")
+    for word in ("\nCPACK_", "CMAKE_BUILD_TYPE:STRING=Release"):
+        expect(word not in cache, f"{word} in the cache of the user's project")
+    expect(not (app / "build" / "CPackConfig.cmake").exists(), "the user's project got our CPack")
+    run("cmake", "--install", app / "build", "--prefix", folder / "prefix")
+    expect(not (folder / "prefix").exists(), "the user's install rules install GSLAM")
+
+
 if __name__ == "__main__":
     main({f.__name__: f for f in (
         all_installed, components_are_disjoint, found_twice, optional, missing, missing_dependency,
         too_new, component_outside_the_tested_set, two_versions, old_dependency,
-        beside_itself_first, wrong_dependency_in_the_plan)})
+        beside_itself_first, wrong_dependency_in_the_plan, whole_subdirectory)})
