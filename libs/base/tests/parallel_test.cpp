@@ -136,6 +136,36 @@ TEST(ParallelFor, StopsTakingChunksAfterAFailure) {
   EXPECT_LE(calls.load(), 2);
 }
 
+TEST(ParallelFor, FailureOfAHugeLoopIsToldAtOnce) {
+  const std::size_t huge = std::numeric_limits<std::size_t>::max();
+  for (unsigned threads : {1u, 2u}) {
+    ParallelOptions options;
+    options.threads = threads;
+    EXPECT_THROW(gslam::parallelFor(
+                     0, huge, [](std::size_t) { throw std::runtime_error("stop"); }, options),
+                 std::runtime_error);
+  }
+}
+
+TEST(ParallelFor, BoundOfThreadsHolds) {
+  ThreadPool pool(4);
+  for (unsigned bound : {1u, 2u, 3u}) {
+    std::atomic<unsigned> at_work(0), most(0);
+    gslam::parallelFor(
+        0, 300,
+        [&](std::size_t) {
+          const unsigned now = ++at_work;
+          unsigned before = most.load();
+          while (before < now && !most.compare_exchange_weak(before, now)) {
+          }
+          std::this_thread::yield();
+          --at_work;
+        },
+        on(pool, 1, bound));
+    EXPECT_LE(most.load(), bound);
+  }
+}
+
 TEST(ParallelReduce, HasTheSameBitsForAnyNumberOfThreads) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(-1, 1);

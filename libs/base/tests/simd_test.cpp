@@ -66,6 +66,7 @@ TEST(Simd, VariantOfAnotherMachineIsRefused) {
   const Simd foreign = GSLAM_ARM64 ? Simd::avx2 : Simd::neon;
   const Simd before = gslam::activeSimd();
   EXPECT_THROW(gslam::forceSimd(foreign), gslam::ArgumentError);
+  EXPECT_THROW(gslam::forceSimd(static_cast<Simd>(9)), gslam::ArgumentError);
   EXPECT_EQ(gslam::activeSimd(), before);
 }
 

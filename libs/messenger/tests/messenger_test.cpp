@@ -75,7 +75,7 @@ TEST(Messenger, RefusesAnotherTypeNamingTopicAndBoth) {
   for (bool publish : {true, false}) {
     try {
       if (publish) messenger.advertise<double>("/n");
-      if (!publish) messenger.subscribe<double>("/n", [](const Shared<double>&) {});
+      if (!publish) messenger.subscribe<double>("/n", [](const Shared<double>&) {}).keep();
       FAIL() << "a double on a topic of int must be refused";
     } catch (const gslam::TypeMismatch& error) {
       EXPECT_STREQ(error.what(), "topic /n carries int, not double");
@@ -93,7 +93,7 @@ TEST(Messenger, RefusesImpossibleNames) {
   for (const char* name : {"", "/", "//a", "/a/", "/a//b", "/a b", "/a.b", "/\xc3\xa4", "a\n"}) {
     EXPECT_THROW(messenger.advertise<int>(name), gslam::ArgumentError) << name;
   }
-  EXPECT_THROW(messenger.subscribe<int>("/n", nullptr), gslam::ArgumentError);
+  EXPECT_THROW(messenger.subscribe<int>("/n", nullptr).keep(), gslam::ArgumentError);
   EXPECT_THROW(messenger.advertise<int>("/n").publish(nullptr), gslam::ArgumentError);
 }
 
@@ -160,6 +160,22 @@ TEST(Messenger, CallbackMayPublishSubscribeAndUnsubscribeItself) {
   });
   publisher.publish(1);
   EXPECT_THAT(order, ElementsAre(1, 20));
+}
+
+// The callback holds the last handle of what owns its subscriber.
+TEST(Messenger, EndOfTheCallbackMayEndTheSubscriber) {
+  struct Owner {
+    Subscriber subscriber;
+  };
+  for (bool keep : {false, true}) {
+    const Messenger messenger;
+    auto owner = std::make_shared<Owner>();
+    Owner* const raw = owner.get();
+    raw->subscriber = messenger.subscribe<int>("/n", [owner](const Shared<int>&) {});
+    owner.reset();
+    if (keep) raw->subscriber.keep();
+    if (!keep) raw->subscriber.unsubscribe();
+  }
 }
 
 TEST(Messenger, UnsubscribedDuringDeliveryIsNotCalled) {

@@ -37,7 +37,8 @@ struct LogRecord {
 };
 
 /// Takes records. It is called in the thread that logs, without a lock held, and from several
-/// threads at once if several log. What it throws is dropped: logging never fails.
+/// threads at once if several log. What it throws is dropped: logging never fails. What it logs
+/// itself is dropped, too.
 using LogSink = std::function<void(const LogRecord&)>;
 
 namespace detail {
@@ -62,7 +63,8 @@ inline LogState& logState() {
 ///
 /// Holds for the program, and for each shared library that sees the same symbols; a plugin built
 /// with hidden visibility has a hook of its own, which its host sets. A record that another thread
-/// is just writing may still reach the old sink. Thread-safe.
+/// is just writing may still reach the old sink: what a sink refers to must outlive the threads
+/// that log. Thread-safe.
 inline void setLogSink(LogSink sink, LogLevel least = LogLevel::info) {
   detail::LogState& state = detail::logState();
   const int level = sink ? static_cast<int>(least) : detail::kLogOff;
@@ -79,7 +81,9 @@ inline bool logEnabled(LogLevel level) noexcept {
 
 /// Hands a record to the sink, if there is one for its level. Never throws. Thread-safe.
 inline void log(const LogRecord& record) noexcept {
-  if (!logEnabled(record.level)) return;
+  static thread_local bool inside = false;  // a sink that logs must not call itself
+  if (inside || !logEnabled(record.level)) return;
+  inside = true;
   try {
     detail::LogState& state = detail::logState();
     std::shared_ptr<const LogSink> sink;
@@ -90,10 +94,11 @@ inline void log(const LogRecord& record) noexcept {
     if (sink && *sink) (*sink)(record);
   } catch (...) {  // NOLINT(bugprone-empty-catch): a broken sink must not break the SLAM system
   }
+  inside = false;
 }
 
 /// A sink that writes lines such as `warning tracker.cpp:42: lost track` to a stream, one at a
-/// time. The stream must outlive the sink.
+/// time. The stream must outlive the threads that log.
 inline LogSink streamLogSink(std::ostream& stream) {
   std::shared_ptr<std::mutex> mutex = std::make_shared<std::mutex>();
   return [mutex, &stream](const LogRecord& record) {

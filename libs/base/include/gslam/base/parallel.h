@@ -11,7 +11,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
-#include <new>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -27,8 +27,10 @@ inline namespace v1 {
 
 /// How a parallel loop runs.
 struct ParallelOptions {
-  std::size_t grain = 1;       ///< indices in a chunk; 0 counts as 1. Aim at 10 us of work or more.
-  unsigned threads = 0;        ///< most threads at work, the caller's among them; 0: no bound
+  std::size_t grain = 1;  ///< indices in a chunk; 0 counts as 1. Aim at 10 us of work or more.
+  /// Most threads at work, the caller's among them; 0: as many as the pool and the caller, for the
+  /// shared pool defaultThreadCount() as it was at the first loop
+  unsigned threads = 0;
   ThreadPool* pool = nullptr;  ///< whose workers help; null: ThreadPool::shared()
 };
 
@@ -44,15 +46,15 @@ class ChunkLoop {
   template <class RunChunk>
   void work(const RunChunk& run_chunk) {
     std::size_t chunk;
-    while ((chunk = next_.fetch_add(1, std::memory_order_relaxed)) < count_) {
-      if (chunk < lowest_failed_.load(std::memory_order_relaxed)) {
-        try {
-          run_chunk(chunk);
-        } catch (...) {
-          keepError(chunk, std::current_exception());
-        }
+    while (take(chunk)) {
+      std::size_t finished = 1;
+      try {
+        run_chunk(chunk);
+      } catch (...) {
+        keepError(chunk, std::current_exception());
+        finished += leaveTheRest();
       }
-      if (done_.fetch_add(1, std::memory_order_acq_rel) + 1 == count_) {
+      if (done_.fetch_add(finished, std::memory_order_acq_rel) + finished == count_) {
         std::lock_guard<std::mutex> lock(mutex_);
         all_done_.notify_all();
       }
@@ -67,37 +69,66 @@ class ChunkLoop {
   }
 
  private:
+  bool take(std::size_t& chunk) {
+    chunk = next_.load(std::memory_order_relaxed);
+    while (chunk < count_) {
+      if (next_.compare_exchange_weak(chunk, chunk + 1, std::memory_order_relaxed)) return true;
+    }
+    return false;
+  }
+
+  // Takes all chunks that nobody took yet, and says how many. Those below a failed one are taken.
+  std::size_t leaveTheRest() { return count_ - next_.exchange(count_, std::memory_order_relaxed); }
+
   void keepError(std::size_t chunk, std::exception_ptr error) {
     std::lock_guard<std::mutex> lock(mutex_);
-    if (chunk >= lowest_failed_.load(std::memory_order_relaxed)) return;
-    lowest_failed_.store(chunk, std::memory_order_relaxed);
+    if (chunk >= lowest_failed_) return;
+    lowest_failed_ = chunk;
     error_ = std::move(error);
   }
 
   const std::size_t count_;
   std::atomic<std::size_t> next_{0};
   std::atomic<std::size_t> done_{0};
-  std::atomic<std::size_t> lowest_failed_{std::numeric_limits<std::size_t>::max()};
-  std::mutex mutex_;  // guards error_
-  std::condition_variable all_done_;
+  std::mutex mutex_;  // guards the two below
+  std::size_t lowest_failed_ = std::numeric_limits<std::size_t>::max();
   std::exception_ptr error_;
+  std::condition_variable all_done_;
 };
+
+// The pool that a loop uses; null where the system has no thread left for the shared one.
+inline ThreadPool* poolOf(const ParallelOptions& options) {
+  if (options.pool != nullptr) return options.pool;
+  try {
+    return &ThreadPool::shared();
+  } catch (const std::system_error&) {
+    return nullptr;
+  }
+}
+
+// Most threads that a loop uses. The shared pool may have a worker more than GSLAM_THREADS allows.
+inline std::size_t threadBound(const ParallelOptions& options) {
+  if (options.threads != 0) return options.threads;
+  if (options.pool != nullptr) return options.pool->size() + std::size_t(1);
+  static const unsigned bound = defaultThreadCount();
+  return bound;
+}
 
 template <class RunChunk>
 void runChunks(std::size_t count, const ParallelOptions& options, const RunChunk& run_chunk) {
   if (count == 0) return;
-  if (count == 1 || options.threads == 1) {
+  const std::size_t threads = std::min(threadBound(options), count);
+  ThreadPool* const pool = threads > 1 ? poolOf(options) : nullptr;
+  if (pool == nullptr) {
     for (std::size_t chunk = 0; chunk < count; ++chunk) run_chunk(chunk);
     return;
   }
-  ThreadPool& pool = options.pool ? *options.pool : ThreadPool::shared();
-  std::size_t helpers = std::min<std::size_t>(pool.size(), count - 1);
-  if (options.threads != 0) helpers = std::min<std::size_t>(helpers, options.threads - 1);
+  const std::size_t helpers = std::min<std::size_t>(pool->size(), threads - 1);
   const auto loop = std::make_shared<ChunkLoop>(count);
   const RunChunk* const body = &run_chunk;  // outlives every chunk: finish() waits for them
   try {
-    for (std::size_t i = 0; i < helpers; ++i) pool.post([loop, body] { loop->work(*body); });
-  } catch (const std::bad_alloc&) {  // fewer helpers then; leaving now would let `body` dangle
+    for (std::size_t i = 0; i < helpers; ++i) pool->post([loop, body] { loop->work(*body); });
+  } catch (...) {  // NOLINT(bugprone-empty-catch): fewer helpers; leaving now lets `body` dangle
   }
   loop->work(run_chunk);
   loop->finish();

@@ -21,6 +21,14 @@
 #define GSLAM_PUBLIC
 #endif
 
+/// @def GSLAM_NODISCARD
+/// Marks a function whose result must be kept.
+#if defined(__GNUC__) || defined(__clang__)
+#define GSLAM_NODISCARD __attribute__((warn_unused_result))
+#else
+#define GSLAM_NODISCARD
+#endif
+
 /// @def GSLAM_X86
 /// 1 where x86-64 kernels (SSE4, AVX2, AVX-512) can be compiled, else 0.
 /// @def GSLAM_ARM64

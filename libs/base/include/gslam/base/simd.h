@@ -5,6 +5,7 @@
 #include <gslam/base/platform.h>
 
 #include <atomic>
+#include <cstddef>
 #include <cstdlib>
 #include <string>
 #include <vector>
@@ -34,7 +35,8 @@ inline const std::vector<Simd>& allSimd() {
 /// The name that `GSLAM_SIMD` uses, e.g. "avx2".
 inline const char* simdName(Simd variant) {
   static const char* const names[] = {"scalar", "sse4", "avx2", "avx512", "neon"};
-  return names[static_cast<int>(variant)];
+  const std::size_t index = static_cast<std::size_t>(variant);
+  return index < sizeof(names) / sizeof(names[0]) ? names[index] : "unknown";
 }
 
 /// The variants that this machine runs, slowest first.

@@ -44,8 +44,8 @@ inline unsigned defaultThreadCount() {
 ///
 /// All members are thread-safe. The destructor runs what is queued, then joins. A task must not
 /// block on the future of another task of the same pool: with every worker waiting, nobody works
-/// (parallelFor() may be nested, because its caller works, too). After fork() a child has none of
-/// the threads and must not use the pool.
+/// (parallelFor() may be nested, because its caller works, too). A task must not destroy its own
+/// pool. After fork() a child has none of the threads and must not use the pool.
 class ThreadPool {
  public:
   /// @param threads  number of workers; 0 means defaultThreadCount()
@@ -66,6 +66,7 @@ class ThreadPool {
   /// The pool that parallelFor() uses unless told: with its caller it makes defaultThreadCount()
   /// threads, but it has one worker at least. Made at the first call and never destroyed, so static
   /// destructors may use it.
+  /// @throws std::system_error when the system has no thread for it
   static ThreadPool& shared() {
     static ThreadPool* const pool = new ThreadPool(std::max(2u, defaultThreadCount()) - 1);
     return *pool;

@@ -49,12 +49,13 @@ class Messenger {
   }
 
   /// Calls `callback` in the publisher's thread with each message that is published from now on.
-  /// @return the handle that holds the subscription: keep it
+  /// @return the handle that holds the subscription: without it the subscription ends at once
   /// @throws ArgumentError for an empty callback or an impossible name, TypeMismatch when the topic
   ///         carries another type
   template <class T>
-  Subscriber subscribe(const std::string& topic,
-                       std::function<void(const std::shared_ptr<const T>&)> callback) const {
+  GSLAM_NODISCARD Subscriber
+  subscribe(const std::string& topic,
+            std::function<void(const std::shared_ptr<const T>&)> callback) const {
     if (!callback) throw ArgumentError("callback", "is empty, expected a function");
     const std::shared_ptr<detail::Topic> found = find(topic, typeid(T));
     const auto subscription = std::make_shared<detail::Subscription>(

@@ -27,27 +27,27 @@ class Subscriber {
   Subscriber(Subscriber&& other) noexcept = default;
   /// Ends its own subscription and takes the other over.
   Subscriber& operator=(Subscriber&& other) noexcept {
-    if (this != &other) {
-      unsubscribe();
-      topic_ = std::move(other.topic_);
-      subscription_ = std::move(other.subscription_);
-    }
+    Subscriber ended(std::move(other));
+    topic_.swap(ended.topic_);
+    subscription_.swap(ended.subscription_);
     return *this;
   }
   ~Subscriber() { unsubscribe(); }
 
-  /// Ends the subscription. No call of the callback begins after this returns; one that another
-  /// thread has already begun may still be running.
+  /// Ends the subscription. Messages that are published from now on do not reach the callback. A
+  /// message that another thread is delivering at this moment still may, also after this returns:
+  /// what the callback refers to must outlive that delivery.
   void unsubscribe() noexcept {
-    if (subscription_) topic_->remove(subscription_);
-    subscription_.reset();
-    topic_.reset();
+    // Taken out first: the end of the callback may destroy this object, which it may own.
+    const std::shared_ptr<detail::Topic> topic = std::move(topic_);
+    const std::shared_ptr<detail::Subscription> subscription = std::move(subscription_);
+    if (subscription) topic->remove(subscription);
   }
 
   /// Lets the subscription live as long as the topic, without this handle.
   void keep() noexcept {
-    subscription_.reset();
-    topic_.reset();
+    const std::shared_ptr<detail::Topic> topic = std::move(topic_);
+    const std::shared_ptr<detail::Subscription> subscription = std::move(subscription_);
   }
 
   /// Whether the subscription is in force.
