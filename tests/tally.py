@@ -5,6 +5,7 @@ usage: tally.py RESULTS_XML...            counts of these files; exit status 0 w
        tally.py --total RESULTS_XML...    the failures by name, then the line `N passed, N failed,
                                           N skipped`; exit status 1 when any failed or none passed
        tally.py --passed|--failed RESULTS_XML NAME   writes a file with one result
+       tally.py --has-failures RESULTS_XML           exit status 0 when the file records a failure
 """
 
 import pathlib
@@ -18,9 +19,17 @@ def read(path):
         cases = ElementTree.parse(path).getroot().findall("testcase")
     except (OSError, ElementTree.ParseError) as error:
         return 0, [f"{path}: {error}"], 0
-    failed = [case.get("name") for case in cases if case.get("status") == "fail"]
-    skipped = sum(case.get("status") in ("notrun", "disabled") for case in cases)
-    return len(cases) - len(failed) - skipped, failed, skipped
+    skipped = [case for case in cases if was_skipped(case)]
+    failed = [case.get("name") for case in cases
+              if case.get("status") != "run" and case not in skipped]
+    return len(cases) - len(failed) - len(skipped), failed, len(skipped)
+
+
+def was_skipped(case):
+    """Skipped by its own word. A test that could not be started is "notrun", too: a failure."""
+    reason = case.find("skipped")
+    message = "" if reason is None else reason.get("message", "")
+    return case.get("status") == "disabled" or message.startswith("SKIP_")
 
 
 def write(path, name, status):
@@ -34,6 +43,8 @@ def main(arguments):
     if arguments[:1] in (["--passed"], ["--failed"]) and len(arguments) == 3:
         write(arguments[1], arguments[2], "run" if arguments[0] == "--passed" else "fail")
         return 0
+    if arguments[:1] == ["--has-failures"] and len(arguments) == 2:
+        return 0 if pathlib.Path(arguments[1]).exists() and read(arguments[1])[1] else 1
     total = arguments[:1] == ["--total"]
     passed, failed, skipped = 0, [], 0
     for path in arguments[1 if total else 0:]:

@@ -11,7 +11,9 @@ import tally
 XML = '<testsuite>{}</testsuite>'
 PASSED = '<testcase name="p" status="run"/>'
 FAILED = '<testcase name="f" status="fail"/>'
-SKIPPED = '<testcase name="s" status="notrun"/>'
+SKIPPED = '<testcase name="s" status="notrun"><skipped message="SKIP_RETURN_CODE=77"/></testcase>'
+NOT_FOUND = ('<testcase name="n" status="notrun"><skipped message="Unable to find executable"/>'
+             '</testcase>')
 
 
 class Tally(unittest.TestCase):
@@ -39,6 +41,16 @@ class Tally(unittest.TestCase):
     def test_one_failure_fails_all_and_is_named(self):
         status, lines = self.total(self.results("a.xml", PASSED), self.results("tsan.xml", FAILED))
         self.assertEqual((status, lines), (1, ["FAILED tsan: f", "1 passed, 1 failed, 0 skipped"]))
+
+    def test_a_test_that_could_not_start_is_a_failure(self):
+        status, lines = self.total(self.results("a.xml", PASSED, NOT_FOUND))
+        self.assertEqual((status, lines), (1, ["FAILED a: n", "1 passed, 1 failed, 0 skipped"]))
+
+    def test_has_failures(self):
+        for cases, expected in (([FAILED], 0), ([PASSED], 1), ([NOT_FOUND], 0), ([], 1)):
+            path = self.results("a.xml", *cases)
+            self.assertEqual(tally.main(["--has-failures", path]), expected, cases)
+        self.assertEqual(tally.main(["--has-failures", str(self.folder / "none.xml")]), 1)
 
     def test_results_that_are_missing_or_broken_are_failures(self):
         (self.folder / "cut.xml").write_text("<testsuite><testcase")

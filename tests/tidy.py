@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs clang-tidy on files, in parallel; a header is checked through one source that includes it.
 
-usage: tidy.py COMPILE_COMMANDS FILES        (FILES: one argument, a name on each line)
+usage: tidy.py COMPILE_COMMANDS < NAMES      (each name ended by a NUL)
 
 A header that no compiled source includes directly is an error: nobody would ever compile it.
 """
@@ -59,7 +59,7 @@ def tidy(database, source):
 
 def main():
     database = pathlib.Path(sys.argv[1])
-    files = [pathlib.Path(name) for name in sys.argv[2].split()]
+    files = [pathlib.Path(name) for name in sorted(set(sys.stdin.read().split("\0"))) if name]
     # tests/packaging/new_component is compiled by the tests, in a copy of the tree.
     files = [file for file in files if "new_component" not in file.parts]
     compiled = {pathlib.Path(entry["file"]).resolve()
