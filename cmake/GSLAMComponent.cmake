@@ -8,8 +8,9 @@
 #     SOURCES  src/p3p.cpp             # compiled only
 #     PACKAGES Threads                 # packages that users of the component must find, too
 #     LINK     Threads::Threads        # ... and what it links from them
-#     PRIVATE_PACKAGES ZLIB            # the same for what only its .cpp files see: users of the
+#     PRIVATE_PACKAGES "ZLIB 1.2"      # the same for what only its .cpp files see: users of the
 #     PRIVATE_LINK     ZLIB::ZLIB      #     static library still need it to link
+#     PKGCONFIG -lz                    # the linker's words for what is linked, but Threads::Threads
 #     DEBIAN   zlib1g-dev)             # Debian packages that hold those packages
 #
 # makes, from the folder it is called in (include/ src/ tests/ bench/ examples/ VERSION README.md):
@@ -19,7 +20,7 @@
 #   and one program for each example. A package inside another library's folder (svar_formats) is a
 #   sub-folder of the same shape that has no VERSION of its own.
 
-include_guard(GLOBAL)
+include_guard(DIRECTORY)  # each folder that a foreign project adds needs these variables anew
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 include(GenerateExportHeader)
@@ -34,7 +35,10 @@ include("${GSLAM_CMAKE_DIR}/GSLAMUmbrella.cmake")
 
 function(gslam_component name)
   cmake_parse_arguments(ARG "" "SUMMARY;KIND;STANDARD"
-    "DEPENDS;SOURCES;PACKAGES;LINK;PRIVATE_PACKAGES;PRIVATE_LINK;DEBIAN" ${ARGN})
+    "DEPENDS;SOURCES;PACKAGES;LINK;PRIVATE_PACKAGES;PRIVATE_LINK;PKGCONFIG;DEBIAN" ${ARGN})
+  if(TARGET gslam_${name})
+    return()  # somebody who needed it was added before it
+  endif()
   if(ARG_UNPARSED_ARGUMENTS OR NOT ARG_SUMMARY OR NOT ARG_KIND MATCHES "^(headers|compiled)$")
     message(FATAL_ERROR "gslam_component(${name}): SUMMARY and KIND headers|compiled are needed, "
       "and these words are not understood: '${ARG_UNPARSED_ARGUMENTS}'")
@@ -46,7 +50,8 @@ function(gslam_component name)
   _gslam_check_room(${name} "${ARG_DEPENDS}")
   _gslam_add_dependencies(${name} "${ARG_DEPENDS}" dependency_targets)
   foreach(package IN LISTS ARG_PACKAGES ARG_PRIVATE_PACKAGES)
-    find_package(${package} REQUIRED)
+    separate_arguments(words UNIX_COMMAND "${package}")
+    find_package(${words} REQUIRED)
   endforeach()
 
   set(target gslam_${name})
@@ -70,7 +75,8 @@ function(gslam_component name)
   _gslam_write_version_header(${name} ${version})
   if(GSLAM_INSTALL)
     _gslam_install_component(${name} ${version} ${ARG_KIND} "${ARG_SUMMARY}" "${ARG_DEPENDS}"
-      "${ARG_PACKAGES}" "${ARG_LINK}" "${ARG_PRIVATE_PACKAGES}" "${ARG_PRIVATE_LINK}")
+      "${ARG_PACKAGES}" "${ARG_PRIVATE_PACKAGES}" "${ARG_LINK};${ARG_PRIVATE_LINK}"
+      "${ARG_PKGCONFIG}")
     gslam_umbrella()
   endif()
   _gslam_record_component(${name} ${version} ${ARG_KIND} ${ARG_STANDARD} "${ARG_SUMMARY}"
@@ -109,7 +115,7 @@ function(_gslam_add_dependencies name depends out)
         set(GSLAM_BUILD_BENCH OFF)
         set(GSLAM_BUILD_EXAMPLES OFF)
       endif()
-      add_subdirectory("${folder}" "${CMAKE_BINARY_DIR}/libs/${dependency}")
+      add_subdirectory("${folder}" "${GSLAM_BINARY_ROOT}/libs/${dependency}")
     elseif(NOT TARGET GSLAM::${dependency})
       find_package(GSLAM_${dependency} ${least} CONFIG REQUIRED)
     endif()
@@ -131,6 +137,7 @@ function(_gslam_set_up_compiled name version private_link)
     VERSION ${version} SOVERSION ${major}
     CXX_EXTENSIONS OFF
     POSITION_INDEPENDENT_CODE ON  # static ones end up in plugins
+    INSTALL_RPATH "$ORIGIN"       # shared ones find each other wherever they were moved
     CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   generate_export_header(gslam_${name} BASE_NAME gslam_${name}
     EXPORT_MACRO_NAME GSLAM_${NAME}_EXPORT
@@ -164,5 +171,6 @@ function(_gslam_record_component name version kind standard summary depends debi
   set_property(GLOBAL PROPERTY GSLAM_${name}_DEPENDS "${depends}")
   set_property(GLOBAL PROPERTY GSLAM_${name}_DEBIAN "${debian}")
   set_property(GLOBAL PROPERTY GSLAM_${name}_FOLDER "${CMAKE_CURRENT_SOURCE_DIR}")
+  set_property(GLOBAL PROPERTY GSLAM_${name}_BINARY "${CMAKE_CURRENT_BINARY_DIR}")
   set_property(GLOBAL PROPERTY GSLAM_${name}_GENERATED "${CMAKE_CURRENT_BINARY_DIR}/include")
 endfunction()

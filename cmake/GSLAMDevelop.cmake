@@ -3,8 +3,10 @@
 
 if(CMAKE_SOURCE_DIR STREQUAL GSLAM_SOURCE_ROOT)
   set(GSLAM_IS_WHOLE ON)   # the whole house is built
+  set(GSLAM_BINARY_ROOT "${CMAKE_BINARY_DIR}")
 else()
   set(GSLAM_IS_WHOLE OFF)  # one library alone, or GSLAM inside somebody's project
+  set(GSLAM_BINARY_ROOT "${CMAKE_BINARY_DIR}/gslam-house")
 endif()
 string(FIND "${CMAKE_SOURCE_DIR}/" "${GSLAM_SOURCE_ROOT}/" position)
 if(position EQUAL 0)
@@ -17,6 +19,7 @@ option(GSLAM_BUILD_EXAMPLES "Build the examples, and run them as tests" ${ours})
 option(GSLAM_BUILD_BENCH "Build the benchmarks (needs Google Benchmark)" OFF)
 option(GSLAM_BUILD_FUZZ "Build the fuzz targets (needs clang's libFuzzer)" OFF)
 option(GSLAM_INSTALL "Make install rules and packages" ${ours})
+option(GSLAM_WERROR "Treat warnings in GSLAM's own sources as errors" ${ours})
 set(GSLAM_SANITIZE "" CACHE STRING "Sanitizers for everything that is built, e.g. address,undefined")
 set(GSLAM_TEST_STANDARD "" CACHE STRING "C++ standard of the tests; default: what the library asks for")
 
@@ -33,7 +36,7 @@ endif()
 function(gslam_strict target)
   if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
     target_compile_options(${target} PRIVATE
-      -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
+      -Wall -Wextra -Wpedantic -Wconversion -Wshadow $<$<BOOL:${GSLAM_WERROR}>:-Werror>)
   endif()
 endfunction()
 

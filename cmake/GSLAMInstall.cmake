@@ -1,8 +1,8 @@
-# Install rules of one component: headers, library, package config, pkg-config file.
+# Install rules of one component: headers, library, package config, pkg-config file, licence.
 # Everything lands in the install component of the same name.
 
 function(_gslam_install_component name version kind summary depends
-         packages link private_packages private_link)
+         packages private_packages link pkgconfig)
   if(kind STREQUAL headers)
     set(data_dir "${CMAKE_INSTALL_DATADIR}")
     set(arch ARCH_INDEPENDENT)
@@ -38,8 +38,11 @@ function(_gslam_install_component name version kind summary depends
     "${CMAKE_CURRENT_BINARY_DIR}/GSLAM_${name}ConfigVersion.cmake"
     DESTINATION "${config_dir}" COMPONENT ${name})
 
+  _gslam_deb_name(${name} deb)
+  install(FILES "${GSLAM_SOURCE_ROOT}/LICENSE" RENAME copyright
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${deb}" COMPONENT ${name})
   _gslam_write_pkgconfig(${name} ${version} ${kind} "${summary}" "${depends}"
-    "${link}" "${private_link}")
+    "${link}" "${pkgconfig}")
   install(FILES "${CMAKE_CURRENT_BINARY_DIR}/gslam_${name}.pc"
     DESTINATION "${data_dir}/pkgconfig" COMPONENT ${name})
 endfunction()
@@ -54,7 +57,7 @@ function(_gslam_dependency_lines NAME VERSION depends packages out)
     string(CONFIGURE "${template}" block @ONLY)
     string(APPEND lines "${block}")
   endwhile()
-  foreach(package IN LISTS packages)
+  foreach(package IN LISTS packages)  # "OpenCV 4 COMPONENTS core" is one of them
     string(APPEND lines "find_dependency(${package})\n")
   endforeach()
   set(${out} "${lines}" PARENT_SCOPE)
@@ -66,7 +69,7 @@ function(_gslam_deb_name name out)
   set(${out} "libgslam-${name}-dev" PARENT_SCOPE)
 endfunction()
 
-function(_gslam_write_pkgconfig name version kind summary depends link private_link)
+function(_gslam_write_pkgconfig name version kind summary depends link pkgconfig)
   set(PC_REQUIRES "")
   while(depends)
     list(POP_FRONT depends dependency least)
@@ -85,9 +88,23 @@ function(_gslam_write_pkgconfig name version kind summary depends link private_l
       set(PC_CFLAGS " -DGSLAM_${NAME}_STATIC_DEFINE")
     endif()
   endif()
-  _gslam_linker_flags("${link}" flags)
-  string(APPEND PC_LIBS "${flags}")
-  _gslam_linker_flags("${private_link}" PC_LIBS_PRIVATE)
+  # pkg-config has no target names: what CMake calls ZLIB::ZLIB, its users must call -lz.
+  set(threads "${link}")
+  list(FILTER threads INCLUDE REGEX "^Threads::Threads$")
+  list(FILTER link EXCLUDE REGEX "^(Threads::Threads)?$")
+  if(link AND NOT pkgconfig)
+    message(FATAL_ERROR "gslam_component(${name}): links ${link}; say with PKGCONFIG what a linker "
+      "is told for it, such as -lz")
+  endif()
+  if(threads)
+    list(APPEND pkgconfig -pthread)
+  endif()
+  string(REPLACE ";" " " pkgconfig "${pkgconfig}")
+  if(kind STREQUAL headers)
+    string(APPEND PC_LIBS " ${pkgconfig}")
+  else()
+    set(PC_LIBS_PRIVATE " ${pkgconfig}")
+  endif()
   set(PC_NAME ${name})
   set(PC_VERSION ${version})
   set(PC_SUMMARY "${summary}")
@@ -95,23 +112,4 @@ function(_gslam_write_pkgconfig name version kind summary depends link private_l
   string(REGEX REPLACE "/$" "" PC_UP "${PC_UP}")
   configure_file("${GSLAM_CMAKE_DIR}/component.pc.in"
     "${CMAKE_CURRENT_BINARY_DIR}/gslam_${name}.pc" @ONLY)
-endfunction()
-
-# What a linker is told for CMake's names of system libraries.
-function(_gslam_linker_flags libraries out)
-  set(flags "")
-  foreach(library IN LISTS libraries)
-    if(library STREQUAL "Threads::Threads")
-      string(APPEND flags " -pthread")
-    elseif(library MATCHES "^-")
-      string(APPEND flags " ${library}")
-    elseif(library MATCHES "::")
-      string(REGEX REPLACE "^.*::" "" plain "${library}")
-      string(TOLOWER "${plain}" plain)
-      string(APPEND flags " -l${plain}")
-    else()
-      string(APPEND flags " -l${library}")
-    endif()
-  endforeach()
-  set(${out} "${flags}" PARENT_SCOPE)
 endfunction()

@@ -27,7 +27,7 @@ set(CPACK_COMPONENT_CMAKE_DESCRIPTION "find_package(GSLAM): the umbrella over it
 # which component it is at.
 set(GSLAM_DEB_VERSIONS "cmake;${umbrella_version}")
 foreach(name IN LISTS components)
-  foreach(field IN ITEMS VERSION KIND SUMMARY DEPENDS DEBIAN)
+  foreach(field IN ITEMS VERSION KIND SUMMARY DEPENDS DEBIAN BINARY)
     get_property(${field} GLOBAL PROPERTY GSLAM_${name}_${field})
   endforeach()
   list(APPEND GSLAM_DEB_VERSIONS ${name} ${VERSION})
@@ -46,6 +46,7 @@ foreach(name IN LISTS components)
     set(CPACK_DEBIAN_${NAME}_PACKAGE_ARCHITECTURE all)
   else()
     set(CPACK_DEBIAN_${NAME}_PACKAGE_SHLIBDEPS ON)
+    list(APPEND CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${BINARY}")
   endif()
 endforeach()
 

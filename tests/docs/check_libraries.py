@@ -3,10 +3,12 @@
 
 usage: check_libraries.py HOUSE_JSON
 
-* VERSION, CHANGELOG.md, README.md, include/, tests/, bench/ and examples/ are there.
+* VERSION, CHANGELOG.md, README.md, include/, tests/, bench/ and examples/ are there, and
+  tests/instantiate.cpp, with which headers are checked at -O2.
 * The newest entry of CHANGELOG.md is the version in VERSION, with a date.
-* Every ```cpp block of README.md (the project's, too) stands word for word in a file of examples/,
-  which the build compiles and runs as a test; every README has one.
+* Every ```cpp block of README.md (the project's and docs/index.md, too) stands word for word in a
+  file of examples/, which the build compiles and runs as a test; every README has one.
+* No README holds a word in capitals alone on a line, as one leaves for what is to be filled in.
 """
 
 import json
@@ -14,13 +16,17 @@ import pathlib
 import re
 import sys
 
-PAPERS = ["VERSION", "CHANGELOG.md", "README.md", "include", "tests", "bench", "examples"]
+PAPERS = ["VERSION", "CHANGELOG.md", "README.md", "include", "tests", "bench", "examples",
+          "tests/instantiate.cpp"]
 BLOCK = re.compile(r"^```cpp\n(.*?)^```", re.MULTILINE | re.DOTALL)
 ENTRY = re.compile(r"^## \[?(\d+\.\d+\.\d+)\]? - \d{4}-\d{2}-\d{2}$", re.MULTILINE)
 
 
 def check_readme(readme, example_folders):
-    blocks = BLOCK.findall(readme.read_text(encoding="utf-8"))
+    text = readme.read_text(encoding="utf-8")
+    blocks = BLOCK.findall(text)
+    for placeholder in re.findall(r"^[A-Z_]{3,}$", text, re.MULTILINE):
+        yield f"{readme}: {placeholder} is still to be filled in"
     if not blocks:
         yield f"{readme}: has no ```cpp example"
     examples = [path.read_text(encoding="utf-8")
@@ -53,7 +59,8 @@ def check(root, folders):
     for folder in folders:
         if (folder / "VERSION").exists():  # a package inside another library's folder has none
             yield from check_library(folder)
-    yield from check_readme(root / "README.md", [folder / "examples" for folder in folders])
+    for page in ("README.md", "docs/index.md"):
+        yield from check_readme(root / page, [folder / "examples" for folder in folders])
 
 
 def main():

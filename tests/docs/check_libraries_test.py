@@ -17,9 +17,12 @@ class CheckLibraries(unittest.TestCase):
         self.write("CHANGELOG.md", "# Changes\n\n## 1.2.0 - 2026-01-31\n\n## 1.1.0 - 2025-01-01\n")
         self.write("VERSION", "1.2.0\n")
         self.write("examples/one.cpp", "// One\nint a;\nint b;\n")
-        for name in ("include", "tests", "bench"):
+        self.write("tests/instantiate.cpp", "")
+        for name in ("include", "bench"):
             (self.library / name).mkdir()
-        (self.root / "README.md").write_text("```cpp\nint b;\n```\n")
+        (self.root / "docs").mkdir()
+        for page in ("README.md", "docs/index.md"):
+            (self.root / page).write_text("```cpp\nint b;\n```\n")
 
     def write(self, path, text):
         file = self.library / path
@@ -34,12 +37,16 @@ class CheckLibraries(unittest.TestCase):
 
     def test_a_readme_that_differs_from_its_example(self):
         self.write("examples/one.cpp", "int a;\nint c;\n")
-        self.assertEqual(len(self.complaints()), 2)
+        self.assertEqual(len(self.complaints()), 3)  # the library's, the project's, the site's
         self.assertIn("int a;", self.complaints()[0])
 
     def test_a_readme_without_an_example(self):
         self.write("README.md", "# One\n")
         self.assertIn("no ```cpp", self.complaints()[0])
+
+    def test_a_placeholder(self):
+        self.write("README.md", "# One\nFIGURES\n```cpp\nint a;\nint b;\n```\n")
+        self.assertIn("FIGURES", self.complaints()[0])
 
     def test_a_changelog_behind_its_version(self):
         self.write("VERSION", "1.3.0\n")

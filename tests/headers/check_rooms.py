@@ -10,6 +10,8 @@ usage: check_rooms.py HOUSE_JSON
 * Public headers of a library include nothing else but the standard library; what is allowed beside
   that is listed in the plan (processor_headers, system_headers, and interop_headers, which no other
   header may include).
+* Below include/ a library has gslam/<its name>.h and gslam/<its name>/ with headers (*.h), only.
+* What is included is written down: no macro names it.
 
 HOUSE_JSON lists the components that were configured (the build writes it).
 """
@@ -19,8 +21,11 @@ import pathlib
 import re
 import sys
 
-INCLUDE = re.compile(r'^\s*#\s*include\s*(<([^>]+)>|"([^"]+)")', re.MULTILINE)
-SOURCES = {".h", ".hpp", ".cpp", ".cc", ".cu"}
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*(?:include|include_next|import)\b[ \t]*(.*)$', re.MULTILINE)
+NAMED = re.compile(r'<([^>]+)>|"([^"]+)"')
+# A string or a comment: the string stays, so that what looks like a comment in it does.
+TEXT_OR_COMMENT = re.compile(r'"(?:\\.|[^"\\\n])*"|/\*.*?\*/|//[^\n]*', re.DOTALL)
+NO_SOURCES = {".md", ".txt", ".json", ".cmake", ".in", ".py", ".png", ".svg", ""}
 
 STANDARD = set("""
 algorithm any array atomic barrier bit bitset cassert ccomplex cctype cerrno cfenv cfloat charconv
@@ -36,13 +41,33 @@ typeindex typeinfo unordered_map unordered_set utility valarray variant vector v
 
 
 def includes_of(path):
-    text = path.read_text(encoding="utf-8")
-    return [angled or quoted for _, angled, quoted in INCLUDE.findall(text)]
+    """What a file includes; a quoted path that leads to a file beside it is resolved to
+    gslam/... where it is a public header of any library."""
+    text = path.read_text(encoding="utf-8").replace("\\\n", " ")
+    text = TEXT_OR_COMMENT.sub(lambda m: m[0] if m[0][0] == '"' else " ", text)
+    for what in INCLUDE.findall(text):
+        named = NAMED.match(what.strip())
+        if not named:
+            yield COMPUTED
+        elif named[1]:
+            yield named[1]
+        else:
+            beside = (path.parent / named[2]).resolve()
+            public = re.search(r"/include/(gslam/.*)$", beside.as_posix())
+            yield public[1] if beside.exists() and public else named[2]
+
+
+COMPUTED = "what a macro names"
+
+
+def sources_below(folder):
+    return sorted(path for path in folder.rglob("*")
+                  if path.is_file() and path.suffix not in NO_SOURCES and "corpus" not in path.parts)
 
 
 def room_of_include(include):
     """The library that owns a header: gslam/<room>.h or gslam/<room>/... ; None for others."""
-    match = re.match(r"gslam/([a-z0-9_]+)(?:\.h|/)", include)
+    match = re.match(r"gslam/([A-Za-z0-9_]+)(?:\.|/)", include)
     return match.group(1) if match else None
 
 
@@ -85,13 +110,17 @@ def check_library(component, plan, nested_folders):
     yield from complaints
     folder = pathlib.Path(component["folder"])
     public = folder / "include"
-    for path in sorted(p for p in folder.rglob("*") if p.suffix in SOURCES):
+    for path in sources_below(folder):
         if any(nested in path.parents for nested in nested_folders - {folder}):
             continue  # belongs to a package of its own
         header = path.relative_to(public).as_posix() if public in path.parents else None
+        if header and not re.fullmatch(rf"gslam/{component['name']}(/.+)?\.h", header):
+            yield f"{path}: not a header gslam/{component['name']}.h or gslam/{component['name']}/*.h"
         for include in includes_of(path):
             room = room_of_include(include)
-            if room is not None and room not in allowed:
+            if include == COMPUTED:
+                yield f"{path}: includes {COMPUTED}, which cannot be checked"
+            elif room is not None and room not in allowed:
                 yield (f"{path}: includes <{include}>, but {component['name']} does not declare "
                        f"{room} in its DEPENDS")
             elif include in plan["interop_headers"] and header is not None:
@@ -104,7 +133,7 @@ def check_library(component, plan, nested_folders):
 
 def check_upper_room(root, room, plan):
     floors = {r["name"]: r["floor"] for r in plan["rooms"]}
-    for path in sorted(p for p in (root / room["path"]).rglob("*") if p.suffix in SOURCES):
+    for path in sources_below(root / room["path"]):
         for include in includes_of(path):
             owner = room_of_include(include)
             if owner in floors and floors[owner] >= room["floor"]:

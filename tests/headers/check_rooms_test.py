@@ -55,6 +55,37 @@ class CheckRooms(unittest.TestCase):
         self.write("libs/low/tests/x.cpp", '#include "gslam/high.h"\n')
         self.assert_one_complaint("tests/x.cpp", "high")
 
+    def test_an_arrow_by_a_relative_path(self):
+        self.write("libs/low/tests/x.cpp", '#include "../../high/include/gslam/high.h"\n')
+        self.assert_one_complaint("tests/x.cpp", "high")
+
+    def test_an_arrow_behind_comments(self):
+        for i, line in enumerate(["#include /* up */ <gslam/high.h>", "/**/ #include <gslam/high.h>",
+                                  "/* \n */#include <gslam/high.h>", "# \\\n include <gslam/high.h>"]):
+            self.write("libs/low/tests/x.cpp", line + "\n")
+            with self.subTest(i):
+                self.assert_one_complaint("tests/x.cpp", "high")
+
+    def test_an_include_in_a_comment_or_after_a_string_is_none(self):
+        self.write("libs/low/tests/x.cpp", '// #include <gslam/high.h>\n/*\n#include <gslam/high.h>\n'
+                   '*/\nconst char* url = "http://a/*b"; // "*/\n')
+        self.assertEqual(self.complaints(), [])
+
+    def test_an_include_that_a_macro_names(self):
+        self.write("libs/low/tests/x.cpp", "#define H <gslam/high.h>\n#include H\n")
+        self.assert_one_complaint("tests/x.cpp", "macro")
+
+    def test_files_of_other_kinds(self):
+        self.write("libs/low/tests/x.ipp", "#include <gslam/high.h>\n")
+        self.assert_one_complaint("tests/x.ipp", "high")
+
+    def test_a_header_under_a_name_that_is_not_its_own(self):
+        for name in ("high_x.h", "low/x.hpp", "lower.h", "low/x.ipp"):
+            self.write(f"libs/low/include/gslam/{name}", "\n")
+            with self.subTest(name):
+                self.assert_one_complaint(name, "not a header")
+            (self.root / "libs/low/include/gslam" / name).unlink()
+
     def test_a_declared_dependency_that_the_plan_forbids(self):
         self.house["components"][0]["depends"] = {"high": "1.0"}
         self.assert_one_complaint("low depends on high", "does not allow")

@@ -82,8 +82,8 @@ def exact(house, folder, name):
     """--component x installs exactly x; nothing exported carries compiler flags of ours."""
     install(house.build, folder / "one", name)
     for path in sorted(files_below(folder / "one")):
-        mine = re.search(rf"(gslam/{name}(\.h$|/)|GSLAM_{name}/|gslam_{name}\.pc$|libgslam_{name}\.)",
-                         path)
+        mine = re.search(rf"(gslam/{name}(\.h$|/)|GSLAM_{name}/|gslam_{name}\.pc$|libgslam_{name}\."
+                         rf"|doc/libgslam-{name.replace('_', '-')}-dev/copyright$)", path)
         expect(mine, f"component {name} installs {path}")
     exported = "".join((folder / "one" / path).read_text(encoding="utf-8")
                        for path in files_below(folder / "one") if "Targets" in path)
@@ -111,6 +111,7 @@ def deb(house, folder, name):
     own = debs["libgslam-" + name.replace("_", "-") + "-dev"]
     version = run("dpkg-deb", "-f", own, "Version").strip()
     expect(version == house.components[name]["version"], f"{own.name} has version {version}")
+    expect_in(["copyright"], run("dpkg-deb", "-c", own))
     write_umbrella_consumer(house, folder / "app", name)
     build_and_run(folder / "app", folder / "root" / "usr")
 

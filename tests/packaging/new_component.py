@@ -70,6 +70,48 @@ def static(house, folder):
               run("dpkg-deb", "-f", deb, "Depends"))
 
 
+def add_second(source):
+    """A compiled library on top of the first: `tachometer` uses `odometer`."""
+    library = source / "libs" / "tachometer"
+    shutil.copytree(source / "libs" / NAME, library)
+    for path in [p for p in library.rglob("*") if p.is_file()]:
+        text = path.read_text(encoding="utf-8")
+        for word in (NAME, NAME.title(), NAME.upper()):
+            new = {"o": "tachometer", "O": "Tachometer"}[word[0]]
+            text = text.replace(word, new.upper() if word.isupper() else new)
+        text = text.replace("DEPENDS geometry 1.0", f"DEPENDS geometry 1.0 {NAME} 1.0")
+        text = text.replace("hiddenHelper", "otherHelper")
+        path.write_text(text, encoding="utf-8")
+        path.rename(path.with_name(path.name.replace(NAME, "tachometer")))
+    code = library / "src" / "tachometer.cpp"
+    code.write_text("#include <gslam/odometer.h>\n" + code.read_text(encoding="utf-8").replace(
+        "  last_ = position;", "  Odometer().add(position);\n  last_ = position;"), encoding="utf-8")
+
+
+def build_two_shared(house, folder):
+    source = add_to_copy(house, folder)
+    add_second(source)
+    build = folder / "build"
+    run("cmake", "-S", source, "-B", build, "-G", "Ninja", "-DGSLAM_BUILD_TESTS=OFF",
+        "-DGSLAM_COMPONENTS=tachometer", "-DBUILD_SHARED_LIBS=ON")
+    run("cmake", "--build", build)
+    return source, build
+
+
+def shared_debs(house, folder):
+    """One shared library on another: they find each other when moved, and become packages."""
+    source, build = build_two_shared(house, folder)
+    run("cmake", "--install", build, "--prefix", folder / "prefix")
+    (folder / "prefix").rename(folder / "elsewhere")
+    write_consumer(folder / "app", "find_package(GSLAM COMPONENTS tachometer REQUIRED)",
+                   ["GSLAM::tachometer"],
+                   source / "libs" / "tachometer" / "examples" / "quickstart.cpp")
+    expect_in(["5 m"], build_and_run(folder / "app", folder / "elsewhere"))
+    run("cpack", "-G", "DEB", "-B", folder / "packages", cwd=build)
+    deb = next((folder / "packages").glob("libgslam-tachometer-dev_1.0.0_*.deb"))
+    expect_in(["libgslam-odometer-dev (>= 1.0)", "libc6"], run("dpkg-deb", "-f", deb, "Depends"))
+
+
 def shared(house, folder):
     """As a shared library: soname, and only what is marked is visible."""
     use(house, folder, "-DBUILD_SHARED_LIBS=ON")
@@ -105,4 +147,4 @@ def alone(house, folder):
 
 
 if __name__ == "__main__":
-    main({f.__name__: f for f in (three_files, static, shared, headers, alone)})
+    main({f.__name__: f for f in (three_files, static, shared, shared_debs, headers, alone)})

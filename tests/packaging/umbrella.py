@@ -186,8 +186,63 @@ def whole_subdirectory(house, folder):
     expect(not (folder / "prefix").exists(), "the user's install rules install GSLAM")
 
 
+def libraries_as_subdirectories(house, folder):
+    """Several libraries added one by one, in any order, beside a libs/base of the user's own."""
+    names = list(house.components)
+    for i, order in enumerate((names, names[::-1])):
+        app = folder / f"app_{i}"
+        added = "\n".join(f"add_subdirectory(\"{house.components[name]['folder']}\" {name})"
+                          for name in order)
+        write_consumer(app, f"add_subdirectory(libs/base)\n{added}",
+                       [f"GSLAM::{name}" for name in names], house.example("messenger"))
+        (app / "libs" / "base").mkdir(parents=True)
+        (app / "libs" / "base" / "CMakeLists.txt").write_text("add_custom_target(users_base)\n")
+        build_and_run(app)
+
+
+def scopes(house, folder):
+    """A sub-directory that finds more than the directory above does not break the one above."""
+    run("cmake", "--install", house.build, "--prefix", folder / "prefix")
+    app = consumer(house, folder, "find_package(GSLAM COMPONENTS geometry REQUIRED)\n"
+                   "add_subdirectory(inner)", ["GSLAM::GSLAM"], "geometry")
+    write_consumer(app / "inner", "find_package(GSLAM COMPONENTS messenger REQUIRED)",
+                   ["GSLAM::messenger"], house.example("messenger"))
+    lists = app / "inner" / "CMakeLists.txt"
+    lists.write_text(lists.read_text(encoding="utf-8").replace("(app", "(inner_app"),
+                     encoding="utf-8")
+    build_and_run(app, folder / "prefix")
+
+
+def nothing_installed(house, folder):
+    """The umbrella alone is no success."""
+    install(house.build, folder / "prefix", "cmake")
+    app = consumer(house, folder, "find_package(GSLAM REQUIRED)")
+    expect_configure_error(app, ["no component is installed", "libgslam-messenger-dev"],
+                           f"-DCMAKE_PREFIX_PATH={folder / 'prefix'}")
+
+
+def none_of_the_optional(house, folder):
+    """GSLAM::GSLAM is there, and empty, where no optional component is."""
+    install(house.build, folder / "prefix", "cmake")
+    main_cpp = folder / "main.cpp"
+    main_cpp.write_text("#include <cstdio>\nint main() { std::puts(\"empty\"); }\n")
+    write_consumer(folder / "app", "find_package(GSLAM OPTIONAL_COMPONENTS messenger)",
+                   ["GSLAM::GSLAM"], main_cpp)
+    build_and_run(folder / "app", folder / "prefix")
+
+
+def unknown_component(house, folder):
+    """-DGSLAM_COMPONENTS with a typing error."""
+    result = attempt("cmake", "-S", house.source, "-B", folder / "build", "-G", "Ninja",
+                     "-DGSLAM_COMPONENTS=mesenger")
+    expect(result.returncode != 0, result.stdout)
+    expect_in(["there is no libs/mesenger", "messenger"], result.stdout)
+
+
 if __name__ == "__main__":
     main({f.__name__: f for f in (
         all_installed, components_are_disjoint, found_twice, optional, missing, missing_dependency,
         too_new, component_outside_the_tested_set, two_versions, old_dependency,
-        beside_itself_first, wrong_dependency_in_the_plan, whole_subdirectory)})
+        beside_itself_first, wrong_dependency_in_the_plan, whole_subdirectory,
+        libraries_as_subdirectories, scopes, nothing_installed, none_of_the_optional,
+        unknown_component)})
