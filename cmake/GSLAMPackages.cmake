@@ -17,20 +17,23 @@ set(CPACK_COMPONENTS_ALL cmake ${components})
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION libdevel)
 set(CPACK_STRIP_FILES OFF)
-set(CPACK_PROJECT_CONFIG_FILE "${CMAKE_BINARY_DIR}/GSLAMDebVersions.cmake")
+set(CPACK_PROJECT_CONFIG_FILE "${CMAKE_BINARY_DIR}/GSLAMDebFacts.cmake")
 
 set(CPACK_DEBIAN_CMAKE_PACKAGE_NAME libgslam-cmake-dev)
 set(CPACK_DEBIAN_CMAKE_PACKAGE_ARCHITECTURE all)
-set(CPACK_COMPONENT_CMAKE_DESCRIPTION "find_package(GSLAM): the umbrella over its components")
 
-# CPack knows no version for a single component: the file made here hands it one, when CPack says
-# which component it is at.
-set(GSLAM_DEB_VERSIONS "cmake;${umbrella_version}")
+# CPack knows no version and no summary of a single component: the file made here hands it these,
+# when CPack says which component it is at.
+set(GSLAM_DEB_FACTS "set(_gslam_version_of_cmake ${umbrella_version})
+set(_gslam_summary_of_cmake \"GSLAM: find_package(GSLAM), the umbrella over its components\")
+")
 foreach(name IN LISTS components)
   foreach(field IN ITEMS VERSION KIND SUMMARY DEPENDS DEBIAN BINARY)
     get_property(${field} GLOBAL PROPERTY GSLAM_${name}_${field})
   endforeach()
-  list(APPEND GSLAM_DEB_VERSIONS ${name} ${VERSION})
+  string(APPEND GSLAM_DEB_FACTS "set(_gslam_version_of_${name} ${VERSION})
+set(_gslam_summary_of_${name} \"GSLAM ${name}: ${SUMMARY}\")
+")
   set(needs "libgslam-cmake-dev" ${DEBIAN})
   while(DEPENDS)
     list(POP_FRONT DEPENDS dependency least)
@@ -41,7 +44,6 @@ foreach(name IN LISTS components)
   string(TOUPPER ${name} NAME)
   _gslam_deb_name(${name} CPACK_DEBIAN_${NAME}_PACKAGE_NAME)
   set(CPACK_DEBIAN_${NAME}_PACKAGE_DEPENDS "${needs}")
-  set(CPACK_COMPONENT_${NAME}_DESCRIPTION "${SUMMARY}")
   if(KIND STREQUAL headers)
     set(CPACK_DEBIAN_${NAME}_PACKAGE_ARCHITECTURE all)
   else()
@@ -50,6 +52,6 @@ foreach(name IN LISTS components)
   endif()
 endforeach()
 
-configure_file("${GSLAM_CMAKE_DIR}/GSLAMDebVersions.cmake.in"
-  "${CMAKE_BINARY_DIR}/GSLAMDebVersions.cmake" @ONLY)
+configure_file("${GSLAM_CMAKE_DIR}/GSLAMDebFacts.cmake.in"
+  "${CMAKE_BINARY_DIR}/GSLAMDebFacts.cmake" @ONLY)
 include(CPack)

@@ -111,6 +111,8 @@ def deb(house, folder, name):
     own = debs["libgslam-" + name.replace("_", "-") + "-dev"]
     version = run("dpkg-deb", "-f", own, "Version").strip()
     expect(version == house.components[name]["version"], f"{own.name} has version {version}")
+    expect_in([f"GSLAM {name}: {house.components[name]['summary']}"],
+              run("dpkg-deb", "-f", own, "Description"))
     expect_in(["copyright"], run("dpkg-deb", "-c", own))
     write_umbrella_consumer(house, folder / "app", name)
     build_and_run(folder / "app", folder / "root" / "usr")
