@@ -58,9 +58,9 @@ class Messenger {
             std::function<void(const std::shared_ptr<const T>&)> callback) const {
     if (!callback) throw ArgumentError("callback", "is empty, expected a function");
     const std::shared_ptr<detail::Topic> found = find(topic, typeid(T));
-    const auto subscription = std::make_shared<detail::Subscription>(
-        [callback](const std::shared_ptr<const void>& message) {
-          callback(std::static_pointer_cast<const T>(message));
+    const auto subscription =
+        std::make_shared<detail::Subscription>([callback](const void* message) {
+          callback(*static_cast<const std::shared_ptr<const T>*>(message));
         });
     found->add(subscription);
     return Subscriber(found, subscription);

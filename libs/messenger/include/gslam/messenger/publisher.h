@@ -28,10 +28,11 @@ class Publisher {
 
   /// Calls every subscriber with this message, in this thread, in the order of subscribing; no
   /// copy is made. What a subscriber throws is logged, and the others still get the message.
+  /// @param message  not null; the pointer passed must not be changed by a subscriber meanwhile
   /// @throws ArgumentError when `message` is null
   void publish(const std::shared_ptr<const T>& message) const {
     if (!message) throw ArgumentError("message", "is null, expected one to publish on " + topic());
-    if (topic_) topic_->deliver(message);
+    if (topic_) topic_->deliver(&message);
   }
 
   /// Moves the message into shared storage once, whatever the number of subscribers.

@@ -24,9 +24,10 @@ namespace gslam {
 inline namespace v1 {
 namespace detail {
 
-// One callback that waits for messages of one topic.
+// One callback that waits for messages of one topic. It gets the address of the publisher's
+// std::shared_ptr<const T>, whose T the topic has checked: passing it on costs no reference count.
 struct Subscription {
-  using Callback = std::function<void(const std::shared_ptr<const void>&)>;
+  using Callback = std::function<void(const void*)>;
 
   explicit Subscription(Callback function) : callback(std::move(function)) {}
 
@@ -69,7 +70,7 @@ class Topic {
   std::size_t subscriberCount() const { return subscriptions()->size(); }
 
   // Calls everyone who listens now, in the order of subscribing.
-  void deliver(const std::shared_ptr<const void>& message) const {
+  void deliver(const void* message) const {
     const std::shared_ptr<const List> list = subscriptions();
     for (const std::shared_ptr<Subscription>& subscription : *list) {
       if (!subscription->active.load(std::memory_order_acquire)) continue;
