@@ -56,6 +56,7 @@ class Site:
         self.out = out
         self.written = {}  # page as Doxygen reads it: the file it was made from
         self.complaints = []
+        self.headings = {}  # name of each heading: how often it was seen
         self.headers = {header: name for component in self.components
                         for header, name in headers_of(component).items()}
         self.header_pages = {header: name for header, name in self.headers.items()
@@ -115,7 +116,11 @@ def convert_prose(site, source, text):
             return match[0] if match[1] == "#" else f"<h2>{match[2]}</h2>"
         if match[1] == "#":
             return f"{match[0]} {{#{page}}}"
-        return f"{match[0]} {{#{anchor(page, match[2])}}}"
+        name = anchor(page, match[2])
+        repeats = site.headings.setdefault(name, 0)
+        site.headings[name] += 1
+        # GitHub numbers the repeats of a heading in the same way.
+        return f"{match[0]} {{#{name}{f'-{repeats}' if repeats else ''}}}"
 
     def code_or_link(match):
         if match["code"]:
