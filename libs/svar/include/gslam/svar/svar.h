@@ -3,6 +3,7 @@
 
 #include <gslam/base/platform.h>
 #include <gslam/base/span.h>
+#include <gslam/svar/detail/shared_text.h>
 #include <gslam/svar/error.h>
 #include <gslam/svar/number.h>
 #include <gslam/svar/ordered_map.h>
@@ -23,6 +24,10 @@
 
 namespace gslam {
 inline namespace v1 {
+
+namespace detail {
+struct SvarParts;
+}  // namespace detail
 
 /// What a Svar holds.
 enum class SvarType : unsigned char {
@@ -86,8 +91,8 @@ class GSLAM_PUBLIC Svar {
       : number_(static_cast<double>(value)), type_(SvarType::real) {}
 
   /// A string.
-  Svar(std::string value)  // NOLINT(google-explicit-constructor)
-      : Svar(SvarType::string, std::make_shared<std::string>(std::move(value))) {}
+  Svar(const std::string& value)  // NOLINT(google-explicit-constructor)
+      : Svar(detail::Text(value)) {}
   /// A string.
   /// @throws SvarError for a null pointer
   Svar(const char* value);  // NOLINT(google-explicit-constructor)
@@ -192,20 +197,22 @@ class GSLAM_PUBLIC Svar {
   friend bool operator!=(const Svar& a, const Svar& b) { return !a.equals(b); }
 
  private:
+  friend struct detail::SvarParts;  // for readers and writers of formats
+
   using Array = std::vector<Svar>;
   using Object = detail::OrderedMap<Svar>;
 
   union Number {
     explicit Number(std::int64_t value) noexcept : integer(value) {}
     explicit Number(double value) noexcept : real(value) {}
-    std::int64_t integer;  // also bool, as 0 or 1
+    std::int64_t integer;  // also bool, as 0 or 1, and the size of a string
     double real;
   };
 
   // What the handles of an array or object share. Its destructor does not recurse.
   template <class Parts>
   struct Node {
-    explicit Node(const Parts& initial) : parts(initial) {}
+    explicit Node(Parts initial) : parts(std::move(initial)) {}
     ~Node() { releaseContainers(parts); }
     Parts parts;
   };
@@ -219,11 +226,18 @@ class GSLAM_PUBLIC Svar {
     bool found;                 // whether the whole path was
   };
 
+  explicit Svar(detail::Text text)
+      : number_(static_cast<std::int64_t>(text.size())),
+        type_(SvarType::string),
+        data_(detail::makeSharedText(text)) {}
   Svar(SvarType type, std::shared_ptr<void> data) noexcept
       : number_(std::int64_t(0)), type_(type), data_(std::move(data)) {}
 
   // These are const as data_ is: a handle points to what it does not own alone.
-  const std::string& asString() const { return *static_cast<const std::string*>(data_.get()); }
+  detail::Text asString() const noexcept {
+    return detail::Text(static_cast<const char*>(data_.get()),
+                        static_cast<std::size_t>(number_.integer));
+  }
   Array& asArray() const { return static_cast<Node<Array>*>(data_.get())->parts; }
   Object& asObject() const { return static_cast<Node<Object>*>(data_.get())->parts; }
 
@@ -270,7 +284,7 @@ class GSLAM_PUBLIC Svar {
 
   Number number_;
   SvarType type_;
-  std::shared_ptr<void> data_;  // string (never changed), Array or Object, as type_ says
+  std::shared_ptr<void> data_;  // characters (never changed), Array or Object, as type_ says
 };
 
 }  // namespace v1

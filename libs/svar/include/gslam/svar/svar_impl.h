@@ -12,7 +12,7 @@ inline namespace v1 {
 
 // --- making
 
-inline Svar::Svar(const char* value) : Svar(detail::Text(value).str()) {}
+inline Svar::Svar(const char* value) : Svar(detail::Text(value)) {}
 
 inline Svar Svar::array(std::initializer_list<Svar> elements) {
   return Svar(SvarType::array, std::make_shared<Node<Array>>(Array(elements)));
@@ -39,7 +39,7 @@ inline bool Svar::read(bool& out) const {
 
 inline bool Svar::read(std::string& out) const {
   if (type_ != SvarType::string) return false;
-  out = asString();
+  out = asString().str();
   return true;
 }
 
@@ -250,10 +250,11 @@ inline std::string Svar::describe() const {
     }
     return name + " " + digits;
   }
+  const std::string text = asString().str();
   std::size_t cut = 40;
-  if (asString().size() <= cut) return name + " \"" + asString() + "\"";
-  while (cut > 0 && (static_cast<unsigned char>(asString()[cut]) & 0xC0u) == 0x80u) --cut;
-  return name + " \"" + asString().substr(0, cut) + "...\"";  // cut between UTF-8 characters
+  if (text.size() <= cut) return name + " \"" + text + "\"";
+  while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xC0u) == 0x80u) --cut;
+  return name + " \"" + text.substr(0, cut) + "...\"";  // cut between UTF-8 characters
 }
 
 inline void Svar::failType(detail::Text path, const std::string& expected) const {
