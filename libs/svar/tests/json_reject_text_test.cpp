@@ -5,39 +5,13 @@
 
 #include <string>
 
+#include "json_reject.h"
+
 namespace {
 
-struct Case {
-  const char* name;
-  std::string text;
-  std::string error;  // without the name of the source
-};
-
-// A literal with all its bytes, zero bytes among them.
-template <std::size_t size>
-std::string bytes(const char (&text)[size]) {
-  return std::string(text, size - 1);
-}
-
-std::string errorOf(const std::string& text, const gslam::JsonOptions& options) {
-  try {
-    gslam::parseJson(text, "JSON", options);
-  } catch (const gslam::ParseError& error) {
-    EXPECT_EQ(error.source(), "JSON");
-    const std::string place = std::to_string(error.line()) + ":" + std::to_string(error.column());
-    EXPECT_EQ(std::string(error.what()).find("JSON:" + place + ": "), 0u) << error.what();
-    return std::string(error.what()).substr(5);
-  }
-  return "accepted";
-}
-
-template <std::size_t count>
-void check(const Case (&cases)[count], const gslam::JsonOptions& options = gslam::JsonOptions()) {
-  for (const Case& one : cases) {
-    SCOPED_TRACE(one.name);
-    EXPECT_EQ(errorOf(one.text, options), one.error);
-  }
-}
+using json_reject::bytes;
+using json_reject::Case;
+using json_reject::check;
 
 TEST(JsonRejectText, Numbers) {
   const Case cases[] = {
