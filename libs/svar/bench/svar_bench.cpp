@@ -35,6 +35,18 @@ void lookup(benchmark::State& state) {
 }
 BENCHMARK(lookup)->Name("lookup_by_name/gslam")->Arg(8)->Arg(64)->Arg(1024);
 
+void getByName(benchmark::State& state) {
+  const std::vector<std::string> all = names(state.range(0));
+  Svar value = object(all);
+  std::size_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(value);
+    benchmark::DoNotOptimize(value.get<double>(all[i]));
+    if (++i == all.size()) i = 0;
+  }
+}
+BENCHMARK(getByName)->Name("get_double_by_name/gslam")->Arg(8)->Arg(64)->Arg(1024);
+
 void lookupInMap(benchmark::State& state) {
   const std::vector<std::string> all = names(state.range(0));
   std::map<std::string, double> value;

@@ -5,6 +5,7 @@
 /// All of GSLAM::svar.
 
 #include <gslam/svar/error.h>
+#include <gslam/svar/fields.h>
 #include <gslam/svar/json.h>
 #include <gslam/svar/svar.h>
 #include <gslam/svar/version.h>

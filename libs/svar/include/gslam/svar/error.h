@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 /// @file
 /// The exception of Svar.
@@ -20,13 +21,16 @@ class GSLAM_PUBLIC SvarError : public Error {
   /// @param problem  what was expected and what was found
   SvarError(const std::string& path, const std::string& problem)
       : Error(path.empty() ? problem : path + ": " + problem),
-        path_(std::make_shared<std::string>(path)) {}
+        parts_(std::make_shared<std::pair<std::string, std::string>>(path, problem)) {}
 
   /// The path (or the one name or index) that was asked for; empty where there was none.
-  const std::string& path() const noexcept { return *path_; }
+  const std::string& path() const noexcept { return parts_->first; }
+  /// The message without the path.
+  const std::string& problem() const noexcept { return parts_->second; }
 
  private:
-  std::shared_ptr<const std::string> path_;  // shared, so that copying never throws
+  // shared, so that copying never throws
+  std::shared_ptr<const std::pair<std::string, std::string>> parts_;
 };
 
 }  // namespace v1

@@ -1,10 +1,13 @@
 #ifndef GSLAM_SVAR_ORDERED_MAP_H
 #define GSLAM_SVAR_ORDERED_MAP_H
 
+#include <gslam/svar/bytes.h>
 #include <gslam/svar/text.h>
 
-#include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,24 +19,12 @@ namespace gslam {
 inline namespace v1 {
 namespace detail {
 
-/// The first index below `count` for which `before` is false, or `count`; std::partition_point for
-/// indices.
-template <class Before>
-std::size_t partitionPoint(std::size_t count, Before before) {
-  std::size_t first = 0;
-  while (count > 0) {
-    const std::size_t half = count / 2;
-    const bool right = before(first + half);
-    if (right) first += half + 1;
-    count = right ? count - half - 1 : half;
-  }
-  return first;
-}
-
 /// Named values in the order of insertion.
 ///
-/// Finding compares log2(size) names and never allocates; inserting and erasing move indices.
-/// Inserting invalidates references to values, as with std::vector.
+/// Finding never allocates and takes the same time in small and large maps: few names are compared
+/// one by one, more are found by a hash table of their indices (open addressing, at most half
+/// full). Inserting invalidates references to values, as with std::vector; erasing takes time in
+/// proportion to the size.
 template <class Value>
 class OrderedMap {
  public:
@@ -42,137 +33,150 @@ class OrderedMap {
   std::vector<Member>& members() noexcept { return members_; }
   const std::vector<Member>& members() const noexcept { return members_; }
 
-  /// The k-th member in the order of names.
-  const Member& byName(std::size_t k) const { return members_[indexAt(k)]; }
-
   /// Null where there is no such name.
-  Value* find(Text name) {
-    const std::size_t k = place(name);
-    return isAt(k, name) ? &members_[indexAt(k)].second : nullptr;
+  const Value* find(Text name) const noexcept {
+    const std::size_t index = indexOf(name);
+    return index != members_.size() ? &members_[index].second : nullptr;
+  }
+  Value* find(Text name) noexcept {
+    const std::size_t index = indexOf(name);
+    return index != members_.size() ? &members_[index].second : nullptr;
   }
 
   /// The name must be new.
   Value& insert(Text name, Value value) {
-    const std::size_t k = place(name);
+    reserveSlot();
     members_.emplace_back(name.str(), std::move(value));
-    try {
-      insertIndex(k);
-    } catch (...) {
-      members_.pop_back();  // both or none
-      throw;
-    }
+    if (!slots_.empty()) addSlot(members_.size() - 1, hashOf(name));
     return members_.back().second;
   }
 
   bool erase(Text name) {
-    const std::size_t k = place(name);
-    if (!isAt(k, name)) return false;
-    const std::size_t gone = indexAt(k);
-    eraseIndex(k);
-    members_.erase(members_.begin() + static_cast<std::ptrdiff_t>(gone));
+    const std::size_t index = indexOf(name);
+    if (index == members_.size()) return false;
+    members_.erase(members_.begin() + static_cast<std::ptrdiff_t>(index));
+    if (members_.size() <= kFew) slots_.clear();
+    if (!slots_.empty()) fillSlots();
     return true;
   }
 
-  /// Takes over members, in O(size log size). Where a name stands there twice, firstRepeat() says
-  /// so and keepLast() must follow.
-  void assign(std::vector<Member> members) {
-    members_ = std::move(members);
-    byName_.clear();
-    if (members_.size() <= kFew) return sortFew();
-    byName_.resize(members_.size());
-    for (std::size_t i = 0; i < byName_.size(); ++i) byName_[i] = i;
-    std::sort(byName_.begin(), byName_.end(), [this](std::size_t i, std::size_t j) {
-      const int order = compareMembers(i, j);
-      return order != 0 ? order < 0 : i < j;
-    });
-  }
+  /// Two indices of one name, the earlier one first.
+  using Repeat = std::pair<std::size_t, std::size_t>;
 
-  /// The first index whose name stands there before, with that earlier index; size() twice where
-  /// all names differ.
-  std::pair<std::size_t, std::size_t> firstRepeat() const {
-    std::pair<std::size_t, std::size_t> found(members_.size(), members_.size());
-    for (std::size_t k = 1; k < members_.size(); ++k) {
-      if (repeatsBefore(k) && indexAt(k) < found.second) found = {indexAt(k - 1), indexAt(k)};
+  /// Takes over members, in linear time. Gives the first whose name stands there before, with that
+  /// earlier one, after which keepLast() must follow; size() twice where all names differ.
+  Repeat assign(std::vector<Member> members) {
+    members_ = std::move(members);
+    slots_.clear();
+    if (members_.size() > kFew) {
+      makeSlots(members_.size());
+      return fillSlots();
     }
-    return found;
+    for (std::size_t i = 1; i < members_.size(); ++i) {
+      const std::size_t earlier = indexAmong(i, members_[i].first);
+      if (earlier != i) return Repeat(earlier, i);
+    }
+    return Repeat(members_.size(), members_.size());
   }
 
   /// Leaves one member of each name: at the place of the first, with the value of the last.
   void keepLast() {
-    std::vector<char> gone(members_.size(), 0);
-    for (std::size_t k = members_.size(); k-- > 1;) {
-      if (!repeatsBefore(k)) continue;
-      members_[indexAt(k - 1)].second = std::move(members_[indexAt(k)].second);
-      gone[indexAt(k)] = 1;
+    std::vector<Member> all;
+    all.swap(members_);
+    slots_.clear();
+    for (Member& member : all) {
+      Value* const earlier = find(member.first);
+      if (earlier != nullptr) {
+        *earlier = std::move(member.second);
+      } else {
+        insert(member.first, std::move(member.second));
+      }
     }
-    std::vector<Member> left;
-    for (std::size_t i = 0; i < members_.size(); ++i) {
-      if (gone[i] == 0) left.push_back(std::move(members_[i]));
-    }
-    assign(std::move(left));
   }
 
  private:
   static constexpr std::size_t kFew = 8;
 
-  // As Text::compare(); names that differ do so mostly in their first byte.
-  static int compareNames(Text a, Text b) noexcept {
-    if (a.empty() || b.empty() || *a.data() == *b.data()) return a.compare(b);
-    return static_cast<unsigned char>(*a.data()) < static_cast<unsigned char>(*b.data()) ? -1 : 1;
-  }
-  int compareMembers(std::size_t i, std::size_t j) const {
-    return compareNames(members_[i].first, members_[j].first);
-  }
-  bool repeatsBefore(std::size_t k) const { return byName(k - 1).first == byName(k).first; }
-  std::size_t place(Text name) const {
-    return partitionPoint(indexCount(),
-                          [&](std::size_t k) { return compareNames(byName(k).first, name) < 0; });
-  }
-  bool isAt(std::size_t k, Text name) const {
-    return k < indexCount() && compareNames(byName(k).first, name) == 0;
+  // Where a member stands, and the half of its name's hash that tells most other names from it.
+  struct Slot {
+    std::uint32_t index_plus_one;  // 0: empty
+    std::uint32_t hash;
+  };
+
+  // Names come from files. Who writes a file cannot know where this program lies in memory, so he
+  // cannot choose names that all fall on one slot.
+  static std::uint64_t hashOf(Text name) noexcept {
+    static const char place = 0;
+    return hashBytes(name.data(), name.size(), reinterpret_cast<std::uintptr_t>(&place));
   }
 
-  // --- the indices of members_, sorted by their names
+  // The index of the name, or size().
+  std::size_t indexOf(Text name) const noexcept {
+    return slots_.empty() ? indexAmong(members_.size(), name) : findSlot(name, hashOf(name));
+  }
 
-  std::size_t indexCount() const { return members_.size(); }
-  std::size_t indexAt(std::size_t k) const { return byName_.empty() ? fewByName_[k] : byName_[k]; }
+  // The index of the name among the first `count`, or `count`.
+  std::size_t indexAmong(std::size_t count, Text name) const noexcept {
+    std::size_t i = 0;
+    while (i < count && !(name == Text(members_[i].first))) ++i;
+    return i;
+  }
 
-  // Puts the index of the last member at k.
-  void insertIndex(std::size_t k) {
-    const std::size_t index = members_.size() - 1;
-    if (byName_.empty() && index < kFew) {
-      for (std::size_t i = index; i > k; --i) fewByName_[i] = fewByName_[i - 1];
-      fewByName_[k] = static_cast<unsigned char>(index);
-      return;
+  std::size_t findSlot(Text name, std::uint64_t hash) const noexcept {
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t at = static_cast<std::size_t>(hash >> 32) & mask;; at = (at + 1) & mask) {
+      const Slot& slot = slots_[at];
+      if (slot.index_plus_one == 0) return members_.size();
+      const std::size_t index = slot.index_plus_one - 1;
+      if (slot.hash == static_cast<std::uint32_t>(hash) && name == Text(members_[index].first)) {
+        return index;
+      }
     }
-    if (byName_.empty()) byName_.assign(fewByName_, fewByName_ + index);
-    byName_.insert(byName_.begin() + static_cast<std::ptrdiff_t>(k), index);
   }
 
-  void eraseIndex(std::size_t k) {
-    const std::size_t gone = indexAt(k);
-    if (!byName_.empty()) {
-      byName_.erase(byName_.begin() + static_cast<std::ptrdiff_t>(k));
-      for (std::size_t& index : byName_) index -= index > gone ? 1 : 0;
-      return;
+  void addSlot(std::size_t index, std::uint64_t hash) noexcept {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t at = static_cast<std::size_t>(hash >> 32) & mask;
+    while (slots_[at].index_plus_one != 0) at = (at + 1) & mask;
+    slots_[at].index_plus_one = static_cast<std::uint32_t>(index + 1);
+    slots_[at].hash = static_cast<std::uint32_t>(hash);
+  }
+
+  // Before one more member comes: what may fail does so while nothing has changed.
+  void reserveSlot() {
+    const std::size_t count = members_.size() + 1;
+    if (count <= kFew || 2 * count <= slots_.size()) return;
+    makeSlots(2 * count);
+    fillSlots();
+  }
+
+  void makeSlots(std::size_t count) {
+    if (count > std::numeric_limits<std::uint32_t>::max() / 4) {
+      throw std::length_error("a Svar object cannot have so many members");
     }
-    for (std::size_t i = k + 1; i < members_.size(); ++i) fewByName_[i - 1] = fewByName_[i];
-    for (unsigned char& index : fewByName_)
-      index = static_cast<unsigned char>(index - (index > gone ? 1 : 0));
+    std::size_t size = 4 * kFew;
+    while (size < 2 * count) size *= 2;
+    slots_.assign(size, Slot());
   }
 
-  void sortFew() {
+  // Enters all members anew; of a name that stands there twice, only the first.
+  Repeat fillSlots() noexcept {
+    slots_.assign(slots_.size(), Slot());
+    Repeat first(members_.size(), members_.size());
     for (std::size_t i = 0; i < members_.size(); ++i) {
-      std::size_t k = i;
-      for (; k > 0 && compareMembers(i, fewByName_[k - 1]) < 0; --k)
-        fewByName_[k] = fewByName_[k - 1];
-      fewByName_[k] = static_cast<unsigned char>(i);
+      const std::uint64_t hash = hashOf(members_[i].first);
+      const std::size_t earlier = findSlot(members_[i].first, hash);
+      if (earlier == members_.size()) {
+        addSlot(i, hash);
+      } else if (first.second == members_.size()) {
+        first = Repeat(earlier, i);
+      }
     }
+    return first;
   }
 
   std::vector<Member> members_;
-  std::vector<std::size_t> byName_;      // empty as long as the members are kFew or less
-  unsigned char fewByName_[kFew] = {0};  // saves small objects an allocation
+  std::vector<Slot> slots_;  // empty, or at least twice as many as members
 };
 
 }  // namespace detail

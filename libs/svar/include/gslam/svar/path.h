@@ -5,29 +5,60 @@
 #include <gslam/svar/text.h>
 
 #include <cstddef>
+#include <cstring>
 #include <limits>
 #include <string>
 
 /// @file
-/// Paths such as "camera.0.fx": names and indices with dots between them.
+/// Paths such as "camera.0.fx", "camera/0/fx" and "/camera/0/fx".
 
 namespace gslam {
 inline namespace v1 {
 namespace detail {
 
-/// Reads a path name by name, without allocating. Begins at the first name.
+/// Reads a path name by name. Begins at the first name; allocates for long names with a ~ only.
+///
+/// A slash anywhere makes slashes separate the names: then the path is a JSON pointer (RFC 6901)
+/// whose first slash may be left out, and ~1 and ~0 stand for / and ~. Else dots do.
 class PathReader {
  public:
-  /// @throws SvarError when the path, or a name in it, is empty
-  explicit PathReader(Text path) : path_(path), begin_(path.begin()), end_(nextDot()) {
-    if (path.empty()) throw SvarError("", "the path is empty, expected such as \"camera.0.fx\"");
-    for (const char* p = path.begin(); p != path.end(); ++p) {
-      const bool nothingAfter = p + 1 == path.end() || p[1] == '.';
-      if (*p == '.' && (p == path.begin() || nothingAfter)) failEmptyName();
+  /// Nothing is checked yet.
+  explicit PathReader(Text path) : path_(path), begin_(path.begin()) {
+    const bool slashes = !path.empty() && std::memchr(path.begin(), '/', path.size()) != nullptr;
+    separator_ = slashes ? '/' : '.';
+    pointer_ = slashes && *path.begin() == '/';
+    if (pointer_) ++begin_;
+    end_ = nextSeparator();
+  }
+
+  /// @throws SvarError when the path or a name is empty (only behind a first slash a name may be),
+  ///         or a ~ stands for nothing
+  void check() const {
+    if (path_.empty()) throw SvarError("", "the path is empty, expected such as \"camera.0.fx\"");
+    for (const char* p = path_.begin(); p != path_.end() && !pointer_; ++p) {
+      const bool nothing_after = p + 1 == path_.end() || p[1] == separator_;
+      if (*p == separator_ && (p == path_.begin() || nothing_after)) failEmptyName();
+    }
+    for (const char* p = path_.begin(); p != path_.end() && separator_ == '/'; ++p) {
+      if (*p == '~' && (p + 1 == path_.end() || (p[1] != '0' && p[1] != '1'))) {
+        throw SvarError(path_.str(), "expected ~0 or ~1, as which / and ~ are written in a path");
+      }
     }
   }
 
-  Text name() const noexcept { return Text(begin_, static_cast<std::size_t>(end_ - begin_)); }
+  /// The current name; valid until next().
+  Text name() {
+    const Text raw(begin_, static_cast<std::size_t>(end_ - begin_));
+    if (separator_ == '.' || raw.empty() || std::memchr(begin_, '~', raw.size()) == nullptr) {
+      return raw;
+    }
+    unescaped_.clear();
+    for (const char* p = begin_; p != end_; ++p) {
+      const bool escape = *p == '~' && p + 1 != end_;
+      unescaped_.push_back(escape ? (*++p == '1' ? '/' : '~') : *p);
+    }
+    return unescaped_;
+  }
   bool isLast() const noexcept { return end_ == path_.end(); }
 
   /// What stands before the current name: "camera.0" at "fx", empty at the first.
@@ -37,28 +68,35 @@ class PathReader {
   }
 
   /// Must not be called at the last name.
-  void next() {
+  void next() noexcept {
     begin_ = end_ + 1;
-    end_ = nextDot();
+    end_ = nextSeparator();
   }
 
  private:
-  const char* nextDot() const {
+  const char* nextSeparator() const noexcept {
     const char* p = begin_;
-    while (p != path_.end() && *p != '.') ++p;
+    while (p != path_.end() && *p != separator_) ++p;
     return p;
   }
   [[noreturn]] void failEmptyName() const {
-    throw SvarError(path_.str(), "expected names with single dots between them, such as \"a.0.b\"");
+    throw SvarError(path_.str(), separator_ == '.'
+                                     ? "expected names with single dots between them, "
+                                       "such as \"a.0.b\""
+                                     : "expected names with single slashes between "
+                                       "them, such as \"a/0/b\"");
   }
 
   Text path_;
   const char* begin_;
-  const char* end_;
+  const char* end_ = nullptr;
+  char separator_ = '.';
+  bool pointer_ = false;
+  std::string unescaped_;
 };
 
-/// False where the name is not made of digits. An index too large for size_t becomes its maximum,
-/// which no array reaches.
+/// False where the name is not an index as JSON pointers have it: digits without a zero before
+/// them. An index too large for size_t becomes its maximum, which no array reaches.
 inline bool parseIndex(Text name, std::size_t& index) noexcept {
   const std::size_t top = std::numeric_limits<std::size_t>::max();
   index = 0;
@@ -67,7 +105,26 @@ inline bool parseIndex(Text name, std::size_t& index) noexcept {
     const std::size_t digit = static_cast<std::size_t>(c - '0');
     index = index > (top - digit) / 10 ? top : index * 10 + digit;
   }
-  return !name.empty();
+  return !name.empty() && (name.size() == 1 || *name.data() != '0');
+}
+
+/// A name as it stands in a JSON pointer.
+inline std::string escapeName(Text name) {
+  std::string escaped;
+  for (const char c : name) {
+    if (c == '~' || c == '/') {
+      escaped += c == '~' ? "~0" : "~1";
+    } else {
+      escaped.push_back(c);
+    }
+  }
+  return escaped;
+}
+
+/// One path behind another, either of which may be empty.
+inline std::string joinPaths(const std::string& outer, const std::string& inner) {
+  if (outer.empty() || inner.empty()) return outer.empty() ? inner : outer;
+  return outer + (outer.find('/') != std::string::npos ? '/' : '.') + inner;
 }
 
 }  // namespace detail

@@ -1,6 +1,7 @@
 #ifndef GSLAM_SVAR_TEXT_H
 #define GSLAM_SVAR_TEXT_H
 
+#include <gslam/svar/bytes.h>
 #include <gslam/svar/error.h>
 
 #include <cstddef>
@@ -38,12 +39,8 @@ class Text {
   const char* end() const noexcept { return data_ + size_; }
   std::string str() const { return std::string(data_, size_); }
 
-  /// Less than, equal to or greater than 0: the order of the bytes.
-  int compare(Text other) const noexcept {
-    const std::size_t common = size_ < other.size_ ? size_ : other.size_;
-    const int order = common == 0 ? 0 : std::memcmp(data_, other.data_, common);
-    if (order != 0 || size_ == other.size_) return order;
-    return size_ < other.size_ ? -1 : 1;
+  friend bool operator==(Text a, Text b) noexcept {
+    return a.size_ == b.size_ && sameBytes(a.data_, b.data_, a.size_);
   }
 
  private:

@@ -22,7 +22,7 @@ class JsonLexer {
   /// Begins after a byte order mark. The text and its name must outlive this.
   JsonLexer(Text text, const std::string& source, bool comments)
       : begin_(text.begin()), end_(text.end()), source_(source), comments_(comments) {
-    if (text.size() >= 3 && Text(begin_, 3).compare(Text("\xEF\xBB\xBF", 3)) == 0) begin_ += 3;
+    if (text.size() >= 3 && Text(begin_, 3) == Text("\xEF\xBB\xBF", 3)) begin_ += 3;
     at_ = begin_;
   }
 
@@ -48,8 +48,8 @@ class JsonLexer {
 
   /// Skips `word` where just that stands here: "nul" and "nullify" are not "null".
   bool skipWord(Text word) noexcept {
-    const bool there = static_cast<std::size_t>(end_ - at_) >= word.size() &&
-                       Text(at_, word.size()).compare(word) == 0;
+    const bool there =
+        static_cast<std::size_t>(end_ - at_) >= word.size() && Text(at_, word.size()) == word;
     if (!there || isOfWord(at_ + word.size())) return false;
     at_ += word.size();
     return true;

@@ -187,17 +187,17 @@ class JsonReader {
           std::move(values_[first_value + i]));
     }
     OrderedMap<Svar> map;
-    map.assign(std::move(members));
-    if (map.firstRepeat().first != count) resolveRepeat(map, first_name);
+    const OrderedMap<Svar>::Repeat repeat = map.assign(std::move(members));
+    if (repeat.first != count) resolveRepeat(map, repeat, first_name);
     open_.pop_back();
     names_.resize(first_name);
     values_.resize(first_value);
     values_.push_back(SvarParts::object(std::move(map)));
   }
 
-  void resolveRepeat(OrderedMap<Svar>& map, std::size_t first_name) const {
+  void resolveRepeat(OrderedMap<Svar>& map, OrderedMap<Svar>::Repeat repeat,
+                     std::size_t first_name) const {
     if (options_.allow_duplicate_names) return map.keepLast();
-    const std::pair<std::size_t, std::size_t> repeat = map.firstRepeat();
     const JsonString& earlier = names_[first_name + repeat.first];
     const JsonString& later = names_[first_name + repeat.second];
     const char* end = later.end;

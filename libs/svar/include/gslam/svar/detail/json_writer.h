@@ -109,6 +109,10 @@ class JsonWriter {
         return writeReal(SvarParts::real(value));
       case SvarType::string:
         return writeString(SvarParts::text(value));
+      case SvarType::binary:
+      case SvarType::function:
+      case SvarType::native:
+        fail(path(open_.size()), "a value that JSON has", SvarParts::describe(value));
       case SvarType::array:
         out_.add('[');
         open_.push_back({SvarParts::elements(value).data(), nullptr, false, value.size(), 0});

@@ -59,10 +59,6 @@ inline std::shared_ptr<void> makeSharedText(Text text) {
                                FrontAllocator<char>(block));
 }
 
-inline bool operator==(Text a, Text b) noexcept {
-  return a.size() == b.size() && a.compare(b) == 0;
-}
-
 }  // namespace detail
 }  // namespace v1
 }  // namespace gslam

@@ -1,4 +1,4 @@
-// What readers and writers of formats see of the inside of a Svar.
+// What readers and writers of formats, and the other files of Svar, see of its inside.
 #ifndef GSLAM_SVAR_DETAIL_SVAR_PARTS_H
 #define GSLAM_SVAR_DETAIL_SVAR_PARTS_H
 
@@ -22,7 +22,11 @@ struct SvarParts {
     return Svar(SvarType::object, std::make_shared<Svar::Node<Members>>(std::move(members)));
   }
 
-  static Svar string(Text text) { return Svar(text); }
+  static Svar string(Text text) { return Svar(SvarType::string, text); }
+  /// The data must be what the type says.
+  static Svar make(SvarType type, std::shared_ptr<void> data) {
+    return Svar(type, std::move(data));
+  }
 
   static bool boolean(const Svar& value) noexcept { return value.number_.integer != 0; }
   static std::int64_t integer(const Svar& value) noexcept { return value.number_.integer; }
@@ -32,6 +36,27 @@ struct SvarParts {
   static const std::vector<Svar::Member>& members(const Svar& value) noexcept {
     return value.asObject().members();
   }
+  /// Null where the object has no such member.
+  static const Svar* member(const Svar& object, Text name) noexcept {
+    return object.asObject().find(name);
+  }
+
+  /// To be changed while nobody else can see the array.
+  static Elements& ownElements(Svar& array) noexcept { return array.asArray(); }
+  static Members& ownMembers(Svar& object) noexcept { return object.asObject(); }
+
+  /// Null where the value is no native object.
+  static const SvarNative* native(const Svar& value) noexcept {
+    return value.type() == SvarType::native ? &value.asNative() : nullptr;
+  }
+  static std::string describe(const Svar& value) { return value.describe(); }
+  [[noreturn]] static void failType(const Svar& value, const std::string& expected) {
+    value.failType("", expected);
+  }
+
+  /// A copy in which the arrays and objects on the way of the path are new and may be written; what
+  /// lies beside it is shared.
+  static Svar thawed(const Svar& value, Text path);
 };
 
 }  // namespace detail

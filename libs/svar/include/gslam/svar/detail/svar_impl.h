@@ -1,7 +1,8 @@
 // Function bodies of svar.h, which says what they do: making, reading and writing.
-#ifndef GSLAM_SVAR_SVAR_IMPL_H
-#define GSLAM_SVAR_SVAR_IMPL_H
+#ifndef GSLAM_SVAR_DETAIL_SVAR_IMPL_H
+#define GSLAM_SVAR_DETAIL_SVAR_IMPL_H
 
+#include <gslam/svar/detail/svar_traits.h>
 #include <gslam/svar/svar.h>
 
 #include <cstdio>
@@ -12,7 +13,7 @@ inline namespace v1 {
 
 // --- making
 
-inline Svar::Svar(const char* value) : Svar(detail::Text(value)) {}
+inline Svar::Svar(const char* value) : Svar(SvarType::string, detail::Text(value)) {}
 
 inline Svar Svar::array(std::initializer_list<Svar> elements) {
   return Svar(SvarType::array, std::make_shared<Node<Array>>(Array(elements)));
@@ -27,6 +28,10 @@ inline Svar Svar::object(std::initializer_list<Member> members) {
     made.asObject().insert(member.first, member.second);
   }
   return made;
+}
+
+inline Svar Svar::binary(const void* data, std::size_t size) {
+  return Svar(SvarType::binary, detail::Text(static_cast<const char*>(data), size));
 }
 
 // --- converting
@@ -54,41 +59,42 @@ bool Svar::read(T& out) const {
   return type_ == SvarType::real && detail::convertNumber(number_.real, out);
 }
 
-namespace detail {
-
 template <class T>
-struct SvarTarget {
-  static_assert(IsInteger<T>::value || IsReal<T>::value,
-                "Svar reads bool, integers (char is none), float, double, std::string and Svar");
-  static std::string name() { return numberName<T>(); }
-};
-template <>
-struct SvarTarget<bool> {
-  static std::string name() { return "bool"; }
-};
-template <>
-struct SvarTarget<std::string> {
-  static std::string name() { return "string"; }
-};
-template <>
-struct SvarTarget<Svar> {
-  static std::string name() { return "any value"; }
-};
-
-}  // namespace detail
-
-template <class T>
-T Svar::readOrThrow(detail::Text path) const {
+T Svar::readOrThrow(detail::Text path, std::true_type) const {
   T out = T();
-  if (!read(out)) failType(path, detail::SvarTarget<T>::name());
+  if (!read(out)) failType(path, detail::svarTypeName<T>());
   return out;
 }
 
 template <class T>
+T Svar::readOrThrow(detail::Text path, std::false_type) const {
+  static_assert(detail::HasFromSvar<T>::value,
+                "Svar does not know how to make this type: specialise gslam::SvarTraits");
+  try {
+    return SvarTraits<T>::fromSvar(*this);
+  } catch (const SvarError& error) {
+    if (path.empty()) throw;
+    throw SvarError(detail::joinPaths(path.str(), error.path()), error.problem());
+  }
+}
+
+namespace detail {
+
+template <class T>
+bool canBe(const Svar& value) {
+  try {
+    value.as<T>();
+    return true;
+  } catch (const SvarError&) {
+    return false;
+  }
+}
+
+}  // namespace detail
+
+template <class T>
 bool Svar::is() const {
-  static_assert(sizeof(detail::SvarTarget<T>) != 0, "");  // says what T may be
-  T ignored = T();
-  return read(ignored);
+  return detail::canBe<T>(*this);
 }
 
 template <class T>
@@ -99,7 +105,8 @@ T Svar::as() const {
 // --- reading
 
 inline const char* Svar::typeName() const noexcept {
-  static const char* const names[] = {"null", "bool", "int", "double", "string", "array", "object"};
+  static const char* const names[] = {"null",   "bool",     "int",    "double", "string",
+                                      "binary", "function", "native", "array",  "object"};
   return names[static_cast<std::size_t>(type_)];
 }
 
@@ -125,10 +132,14 @@ inline Span<const Svar::Member> Svar::members() const {
   return asObject().members();
 }
 
-inline Svar Svar::operator[](detail::Text name) const {
-  const Svar* const member = type_ == SvarType::object ? child(name) : nullptr;
-  if (member == nullptr) failMissing(name.str(), "expected a member, found nothing", name, "");
-  return *member;
+inline Span<const std::uint8_t> Svar::bytes() const {
+  if (type_ != SvarType::binary) failType("", "binary");
+  return Span<const std::uint8_t>(static_cast<const std::uint8_t*>(data_.get()),
+                                  static_cast<std::size_t>(number_.integer));
+}
+
+inline Svar Svar::operator[](detail::Text path) const {
+  return get<Svar>(path);
 }
 
 template <class I, detail::EnableIf<detail::IsInteger<I>::value>>
@@ -154,8 +165,35 @@ inline bool Svar::mayHave(detail::Text name) const {
          (type_ == SvarType::array && detail::parseIndex(name, ignored));
 }
 
+// What stands at the path, or null; null also for a malformed path, which walk() finds out.
+inline const Svar* Svar::find(detail::Text path) const {
+  const bool pointer = !path.empty() && *path.data() == '/';
+  if (type_ == SvarType::object && !pointer) {
+    const Svar* const whole = asObject().find(path);
+    if (whole != nullptr) return whole;
+  }
+  const Svar* at = this;
+  for (detail::PathReader reader(path); at != nullptr; reader.next()) {
+    const detail::Text name = reader.name();
+    if (name.empty() && !pointer) return nullptr;
+    at = at->child(name);
+    if (reader.isLast()) break;
+  }
+  return at;
+}
+
+// The same, for writing and for messages.
 inline Svar::Walk Svar::walk(detail::Text path) const {
-  Walk walk = {detail::PathReader(path), this, nullptr, false, false};
+  Walk walk(path, this);
+  if (isContainer()) walk.container = this;
+  walk.shared = isShared();
+  if (type_ == SvarType::object && (path.empty() || *path.data() != '/')) {
+    const Svar* const whole = asObject().find(path);
+    walk.found = whole != nullptr;
+    if (walk.found) walk.at = whole;
+    if (walk.found) return walk;
+  }
+  walk.reader.check();
   for (;; walk.reader.next()) {
     if (walk.at->isContainer()) walk.container = walk.at;
     walk.shared = walk.shared || walk.at->isShared();
@@ -167,24 +205,29 @@ inline Svar::Walk Svar::walk(detail::Text path) const {
   }
 }
 
+inline bool Svar::contains(detail::Text path) const {
+  return find(path) != nullptr || walk(path).found;
+}
+
 template <class T>
 T Svar::get(detail::Text path) const {
-  const Walk end = walk(path);
-  if (!end.found) failMissing<T>(path, end);
-  return end.at->readOrThrow<T>(path);
+  const Svar* const found = find(path);
+  if (found == nullptr) failMissing<T>(path, walk(path));
+  return found->readOrThrow<T>(path);
 }
 
 template <class T>
 T Svar::get(detail::Text path, const typename std::common_type<T>::type& fallback) const {
-  const Walk end = walk(path);
-  if (end.found) return end.at->readOrThrow<T>(path);
-  if (!end.at->mayHave(end.reader.name())) failMissing<T>(path, end);
+  const Svar* const found = find(path);
+  if (found != nullptr) return found->readOrThrow<T>(path);
+  Walk end = walk(path);
+  if (!end.at->mayHave(end.reader.name())) failMissing<T>(path, std::move(end));
   return fallback;
 }
 
 template <class T>
-void Svar::failMissing(detail::Text path, const Walk& end) {
-  end.at->failMissing(path.str(), "expected " + detail::SvarTarget<T>::name() + ", found nothing",
+void Svar::failMissing(detail::Text path, Walk end) {
+  end.at->failMissing(path.str(), "expected " + detail::svarTypeName<T>() + ", found nothing",
                       end.reader.name(), end.reader.parent());
 }
 
@@ -195,15 +238,31 @@ inline Svar& Svar::makeChild(detail::Text name) {
   return asObject().insert(name, Svar());
 }
 
-inline void Svar::set(detail::Text path, Svar value) & {
-  Walk end = walk(path);
-  if (!end.found && !end.at->isNull() && end.at->type_ != SvarType::object) {
-    end.at->failMissing(path.str(), "cannot be set", end.reader.name(), end.reader.parent());
-  }
-  // Nobody but a second handle can have put what is on the way into the value.
-  if (end.shared && value.reaches(end.container->data_.get())) {
+// "/-" at the end of a path: the place behind the last element of an array.
+inline bool Svar::isBehind(Walk& end) {
+  return !end.found && end.at->type_ == SvarType::array && end.reader.isLast() &&
+         end.reader.name() == detail::Text("-", 1);
+}
+
+inline void Svar::checkWrite(detail::Text path, const Walk& end, const Svar& value) {
+  if (end.container == nullptr) return;
+  if (!end.container->isFrozen()) {
+    // Nobody but a second handle can have put what is on the way into the value.
+    if (!end.shared || !value.reaches(end.container->data_.get())) return;
     throw SvarError(path.str(), "cannot be set: the " + value.describe() + " would contain itself");
   }
+  throw SvarError(path.str(), "cannot be changed: the " + end.container->describe() +
+                                  " is frozen; clone() it first");
+}
+
+inline void Svar::set(detail::Text path, Svar value) & {
+  Walk end = walk(path);
+  const bool behind = isBehind(end);
+  if (!end.found && !behind && !end.at->isNull() && end.at->type_ != SvarType::object) {
+    end.at->failMissing(path.str(), "cannot be set", end.reader.name(), end.reader.parent());
+  }
+  checkWrite(path, end, value);
+  if (behind) return end.at->asArray().push_back(std::move(value));
   Svar* place = const_cast<Svar*>(end.at);  // it is inside of this, which is not const
   while (!end.found) {
     place = &place->makeChild(end.reader.name());
@@ -216,6 +275,9 @@ inline void Svar::set(detail::Text path, Svar value) & {
 inline void Svar::push_back(Svar value) & {
   if (isNull()) *this = array();
   if (type_ != SvarType::array) failType("", "array");
+  if (isFrozen()) {
+    throw SvarError("", "cannot be changed: the " + describe() + " is frozen; clone() it first");
+  }
   if (isShared() && value.reaches(data_.get())) {
     throw SvarError("", "cannot be appended: the " + value.describe() + " would contain itself");
   }
@@ -223,14 +285,16 @@ inline void Svar::push_back(Svar value) & {
 }
 
 inline bool Svar::erase(detail::Text path) & {
-  const Walk end = walk(path);
+  Walk end = walk(path);
   if (!end.found) return false;
-  if (end.container->type_ == SvarType::object) {
-    return end.container->asObject().erase(end.reader.name());
+  checkWrite(path, end, Svar());
+  if (end.container->type_ == SvarType::array) {
+    Array& elements = end.container->asArray();
+    elements.erase(elements.begin() + (end.at - elements.data()));
+    return true;
   }
-  Array& elements = end.container->asArray();
-  elements.erase(elements.begin() + (end.at - elements.data()));
-  return true;
+  const bool whole = end.container == this && asObject().find(path) == end.at;
+  return end.container->asObject().erase(whole ? path : end.reader.name());
 }
 
 // --- messages
@@ -240,6 +304,9 @@ inline std::string Svar::describe() const {
   std::string name = typeName();
   if (isNull()) return name;
   if (isContainer()) return name + " of " + std::to_string(size());
+  if (type_ == SvarType::binary) return name + " of " + std::to_string(number_.integer) + " bytes";
+  if (type_ == SvarType::function) return name + " " + asFunction().signature();
+  if (type_ == SvarType::native) return name + " " + asNative().typeName();
   if (type_ == SvarType::boolean) return name + (number_.integer != 0 ? " true" : " false");
   if (type_ == SvarType::integer) return name + " " + std::to_string(number_.integer);
   if (type_ == SvarType::real) {
@@ -270,4 +337,4 @@ inline void Svar::failMissing(const std::string& path, const std::string& proble
 }  // namespace v1
 }  // namespace gslam
 
-#endif  // GSLAM_SVAR_SVAR_IMPL_H
+#endif  // GSLAM_SVAR_DETAIL_SVAR_IMPL_H
