@@ -7,6 +7,7 @@
 #include <gslam/svar/error.h>
 #include <gslam/svar/fields.h>
 #include <gslam/svar/json.h>
+#include <gslam/svar/shared.h>
 #include <gslam/svar/svar.h>
 #include <gslam/svar/version.h>
 

@@ -345,6 +345,7 @@ class GSLAM_PUBLIC Svar {
   static std::vector<Svar>*& pendingOnThisThread() noexcept;
 
   using List = std::vector<const Svar*>;
+  void setFrozen() const noexcept;
   void detach(bool freeze);
   Svar copied(bool freeze) const;
   bool reaches(const void* container) const;

@@ -57,15 +57,14 @@ inline std::vector<Svar>*& Svar::pendingOnThisThread() noexcept {
 }
 
 inline void Svar::detach(bool freeze) {
-  if (type_ == SvarType::array) {
-    const std::shared_ptr<Node<Array>> node = std::make_shared<Node<Array>>(asArray());
-    node->frozen = freeze;
-    data_ = node;
-  } else {
-    const std::shared_ptr<Node<Object>> node = std::make_shared<Node<Object>>(asObject());
-    node->frozen = freeze;
-    data_ = node;
-  }
+  if (type_ == SvarType::array) data_ = std::make_shared<Node<Array>>(asArray());
+  if (type_ == SvarType::object) data_ = std::make_shared<Node<Object>>(asObject());
+  if (freeze) setFrozen();
+}
+
+inline void Svar::setFrozen() const noexcept {
+  if (type_ == SvarType::array) static_cast<Node<Array>*>(data_.get())->frozen = true;
+  if (type_ == SvarType::object) static_cast<Node<Object>*>(data_.get())->frozen = true;
 }
 
 inline bool Svar::isFrozen() const noexcept {

@@ -57,6 +57,10 @@ struct SvarParts {
   /// A copy in which the arrays and objects on the way of the path are new and may be written; what
   /// lies beside it is shared.
   static Svar thawed(const Svar& value, Text path);
+  /// Freezes what is not frozen in place: what is new, so that nobody else can see it yet.
+  static void seal(const Svar& value);
+  /// What stands at the path, or null.
+  static const Svar* find(const Svar& value, Text path) { return value.find(path); }
 };
 
 }  // namespace detail
