@@ -8,7 +8,7 @@
 #include <utility>
 
 /// @file
-/// The exception of Svar.
+/// The exceptions of Svar.
 
 namespace gslam {
 inline namespace v1 {
@@ -31,6 +31,22 @@ class GSLAM_PUBLIC SvarError : public Error {
  private:
   // shared, so that copying never throws
   std::shared_ptr<const std::pair<std::string, std::string>> parts_;
+};
+
+/// A parameter that was given on the command line, in the environment or in a file, and is wrong.
+class GSLAM_PUBLIC ConfigError : public Error {
+ public:
+  /// The message reads `place: problem`.
+  /// @param place    where it was given, as its author knows it: "--fps", "GSLAM_FPS", "a.json"
+  /// @param problem  what was expected and what was found
+  ConfigError(const std::string& place, const std::string& problem)
+      : Error(place + ": " + problem), place_(std::make_shared<std::string>(place)) {}
+
+  /// Where it was given.
+  const std::string& place() const noexcept { return *place_; }
+
+ private:
+  std::shared_ptr<const std::string> place_;  // shared, so that copying never throws
 };
 
 }  // namespace v1

@@ -69,6 +69,7 @@ void saveJson(const std::string& path, const Svar& value, int indent = 2);
 }  // namespace v1
 }  // namespace gslam
 
+#include <gslam/svar/detail/file_formats.h>
 #include <gslam/svar/detail/json_file.h>
 #include <gslam/svar/detail/json_reader.h>
 #include <gslam/svar/detail/json_writer.h>

@@ -144,6 +144,16 @@ class GSLAM_PUBLIC Svar {
   template <class F>
   static Svar function(F callable);
 
+  /// The value in a file, whose kind its suffix tells: .json, and where GSLAM::svar_formats is
+  /// linked and its header included .yaml, .yml and .xml.
+  /// @throws FileError when it cannot be read or its suffix is unknown, ParseError when its content
+  ///         is wrong
+  static Svar load(const std::string& path);
+  /// Writes the value to a file, whose kind its suffix tells as for load(). Whatever fails, the old
+  /// file is still whole.
+  /// @throws FileError when it cannot be written, SvarError for what the format does not have
+  void save(const std::string& path) const;
+
   /// Shares an array or object, copies anything else.
   Svar(const Svar&) = default;
   /// Leaves null behind.

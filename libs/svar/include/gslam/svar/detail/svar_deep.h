@@ -1,10 +1,11 @@
 // Function bodies of svar.h that go through the whole depth of a value. Each keeps a list of what
 // is left to do in place of recursion, so that no depth overflows the stack.
+#include <gslam/svar/svar.h>  // includes this file, so that it comes before the guard
+
 #ifndef GSLAM_SVAR_DETAIL_SVAR_DEEP_H
 #define GSLAM_SVAR_DETAIL_SVAR_DEEP_H
 
 #include <gslam/svar/detail/svar_traits.h>
-#include <gslam/svar/svar.h>
 
 namespace gslam {
 inline namespace v1 {

@@ -1,9 +1,10 @@
 // Functions as values: a callable behind a checked call.
+#include <gslam/svar/svar.h>  // includes this file, so that it comes before the guard
+
 #ifndef GSLAM_SVAR_DETAIL_SVAR_FUNCTION_H
 #define GSLAM_SVAR_DETAIL_SVAR_FUNCTION_H
 
 #include <gslam/svar/detail/svar_traits.h>
-#include <gslam/svar/svar.h>
 
 namespace gslam {
 inline namespace v1 {

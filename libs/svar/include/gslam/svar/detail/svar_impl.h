@@ -1,9 +1,10 @@
 // Function bodies of svar.h, which says what they do: making, reading and writing.
+#include <gslam/svar/svar.h>  // includes this file, so that it comes before the guard
+
 #ifndef GSLAM_SVAR_DETAIL_SVAR_IMPL_H
 #define GSLAM_SVAR_DETAIL_SVAR_IMPL_H
 
 #include <gslam/svar/detail/svar_traits.h>
-#include <gslam/svar/svar.h>
 
 #include <cstdio>
 #include <cstdlib>

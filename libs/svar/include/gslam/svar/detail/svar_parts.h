@@ -1,8 +1,8 @@
 // What readers and writers of formats, and the other files of Svar, see of its inside.
+#include <gslam/svar/svar.h>  // includes this file, so that it comes before the guard
+
 #ifndef GSLAM_SVAR_DETAIL_SVAR_PARTS_H
 #define GSLAM_SVAR_DETAIL_SVAR_PARTS_H
-
-#include <gslam/svar/svar.h>
 
 namespace gslam {
 inline namespace v1 {

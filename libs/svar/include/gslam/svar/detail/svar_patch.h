@@ -1,9 +1,10 @@
 // Function bodies of svar.h: laying one value over another, and JSON patches (RFC 6902).
+#include <gslam/svar/svar.h>  // includes this file, so that it comes before the guard
+
 #ifndef GSLAM_SVAR_DETAIL_SVAR_PATCH_H
 #define GSLAM_SVAR_DETAIL_SVAR_PATCH_H
 
 #include <gslam/svar/detail/svar_parts.h>
-#include <gslam/svar/svar.h>
 
 namespace gslam {
 inline namespace v1 {

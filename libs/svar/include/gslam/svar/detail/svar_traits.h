@@ -1,9 +1,10 @@
 // SvarTraits of the types that are known from the beginning, and the names of types in messages.
+#include <gslam/svar/svar.h>  // includes this file, so that it comes before the guard
+
 #ifndef GSLAM_SVAR_DETAIL_SVAR_TRAITS_H
 #define GSLAM_SVAR_DETAIL_SVAR_TRAITS_H
 
 #include <gslam/svar/detail/svar_parts.h>
-#include <gslam/svar/svar.h>
 
 #include <array>
 #include <tuple>

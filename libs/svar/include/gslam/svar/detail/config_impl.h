@@ -1,0 +1,290 @@
+// Function bodies of config.h, which says what they do.
+#ifndef GSLAM_SVAR_DETAIL_CONFIG_IMPL_H
+#define GSLAM_SVAR_DETAIL_CONFIG_IMPL_H
+
+#include <gslam/base/error.h>
+#include <gslam/svar/config.h>
+#include <gslam/svar/detail/bash_completion.h>
+#include <gslam/svar/detail/command_line.h>
+#include <gslam/svar/detail/config_help.h>
+
+#include <cstdlib>
+
+namespace gslam {
+inline namespace v1 {
+
+// --- declaring
+
+namespace detail {
+
+/// @throws ArgumentError for a name that cannot be declared any more
+inline void checkNewName(const Parameters& parameters, const std::string& name) {
+  if (!isParameterName(name)) {
+    throw ArgumentError("\"" + name + "\"",
+                        "is no name of a parameter: expected letters, digits, - "
+                        "and _, with single dots between");
+  }
+  const std::string plain = withUnderscores(name);
+  for (const char* ours : {"help", "config", "dump_config", "bash_completion"}) {
+    if (plain == ours) throw ArgumentError(name, "is a parameter of every program");
+  }
+  if (findParameter(parameters, name) != nullptr) throw ArgumentError(name, "is declared already");
+  for (const std::unique_ptr<Parameter>& one : parameters) {
+    const std::string& shorter = one->name.size() < name.size() ? one->name : name;
+    const std::string& longer = one->name.size() < name.size() ? name : one->name;
+    if (longer.compare(0, shorter.size() + 1, shorter + ".") == 0) {
+      throw ArgumentError(name, "cannot be declared beside " + one->name + ": " + shorter +
+                                    " is a value of its own");
+    }
+  }
+}
+
+}  // namespace detail
+
+template <class T>
+detail::Parameter& Config::declare(const std::string& name, const std::string& help) {
+  detail::checkNewName(parameters_, name);
+  std::unique_ptr<detail::Parameter> made(new detail::Parameter);
+  made->name = name;
+  made->help = help;
+  made->group = "Options";
+  made->placeholder = detail::Placeholder<T>::text();
+  made->is_bool = std::is_same<T, bool>::value;
+  made->is_open = std::is_same<T, Svar>::value;
+  made->read = &detail::ValueOfText<T>::read;
+  parameters_.push_back(std::move(made));
+  return *parameters_.back();
+}
+
+template <class T>
+Config::Argument<T> Config::arg(const std::string& name,
+                                const typename std::common_type<T>::type& default_value,
+                                const std::string& help) {
+  using Rule = detail::ParameterRule;
+  detail::Parameter& parameter = declare<T>(name, help);
+  parameter.default_value = Svar(default_value).frozen();
+  std::unique_ptr<Rule> rule = Rule::make<T>(name, Rule::must_be_there);
+  parameter.rule = rule.get();
+  addRule(std::move(rule), parameter.default_value);
+  return Argument<T>(*this, parameter);
+}
+
+template <class T>
+Config::Argument<T> Config::arg(const std::string& name, const std::string& help) {
+  using Rule = detail::ParameterRule;
+  detail::Parameter& parameter = declare<T>(name, help);
+  parameter.is_required = true;
+  std::unique_ptr<Rule> rule = Rule::make<T>(name, Rule::may_be_missing);
+  parameter.rule = rule.get();
+  addRule(std::move(rule));
+  return Argument<T>(*this, parameter);
+}
+
+template <class T>
+Config::Argument<T>& Config::Argument<T>::shortName(const std::string& name) {
+  detail::checkNewName(config_->parameters_, name);
+  parameter_->short_name = name;
+  return *this;
+}
+
+// --- taking over what is given
+
+/// Values that came from one place.
+struct Config::Source {
+  std::string name;
+  std::vector<detail::Given> given;
+};
+
+inline void Config::readFile(const std::string& path, Source& source) const {
+  source.name = path;
+  const Svar content = Svar::load(path);
+  if (content.isNull()) return;
+  if (content.type() != SvarType::object) {
+    throw ConfigError(
+        path, "expected an object with parameters, found " + detail::SvarParts::describe(content));
+  }
+  listFileValues(content, "", source);
+}
+
+// A file may write "camera.fx" as one name or as objects inside of one another.
+inline void Config::listFileValues(const Svar& part, const std::string& name,
+                                   Source& source) const {
+  for (const Svar::Member& member : part.members()) {
+    const std::string path = name.empty() ? member.first : name + "." + member.first;
+    detail::Parameter* const parameter = detail::findParameter(parameters_, path);
+    bool leads_on = false;
+    std::vector<std::string> names;
+    for (const std::unique_ptr<detail::Parameter>& one : parameters_) {
+      leads_on = leads_on || one->name.compare(0, path.size() + 1, path + ".") == 0;
+      names.push_back(one->name);
+    }
+    if (parameter != nullptr) {
+      source.given.push_back({parameter, parameter->name, member.second, source.name});
+    } else if (detail::Parameter* const open = detail::findOpenParameter(parameters_, path)) {
+      source.given.push_back({open, path, member.second, source.name});
+    } else if (leads_on && member.second.type() == SvarType::object) {
+      listFileValues(member.second, path, source);
+    } else {
+      throw ConfigError(source.name, path + " is no parameter" +
+                                         detail::suggestion(detail::nearestName(path, names)));
+    }
+  }
+}
+
+inline void Config::readEnvironment(Source& source) const {
+  if (environment_.empty()) return;
+  for (const std::unique_ptr<detail::Parameter>& one : parameters_) {
+    std::string variable = environment_;
+    for (const char c : one->name) {
+      const bool lower = c >= 'a' && c <= 'z';
+      variable.push_back(lower ? static_cast<char>(c - 'a' + 'A') : c == '.' || c == '-' ? '_' : c);
+    }
+    const char* const text = std::getenv(variable.c_str());
+    if (text == nullptr) continue;
+    try {
+      source.given.push_back({one.get(), one->name, one->read(text), variable});
+    } catch (const SvarError& error) {
+      throw ConfigError(variable, error.what());
+    }
+  }
+}
+
+// Adds what a source gives to what those before it gave.
+inline void Config::lay(const Source& source, Svar& over) const {
+  const Svar tree = snapshot();
+  for (const detail::Given& one : source.given) {
+    try {
+      Svar next;
+      next.set(one.path, one.value.clone());
+      next = over.merged(next);
+      one.parameter->rule->check(tree.merged(next).get<Svar>(one.parameter->name));
+      over = next;
+    } catch (const SvarError& error) {
+      // The place says which parameter it is, unless it is a file.
+      const bool in_file = one.place == source.name;
+      const bool same = error.path() == one.parameter->name;
+      throw ConfigError(one.place, in_file || !same ? error.what() : error.problem());
+    }
+  }
+}
+
+inline void Config::takeOver(const std::vector<Source>& sources) {
+  Svar over = Svar::object();
+  for (const Source& source : sources) lay(source, over);
+  merge(over);
+  const Svar tree = snapshot();
+  for (const Source& source : sources) {
+    for (const detail::Given& one : source.given) {
+      one.parameter->origin = source.name.empty() ? one.place : source.name;
+      one.parameter->given = tree.get<Svar>(one.parameter->name);
+    }
+  }
+}
+
+inline void Config::loadFile(const std::string& path) {
+  std::vector<Source> sources(1);
+  readFile(path, sources[0]);
+  takeOver(sources);
+}
+
+inline CommandLine Config::parse(int argc, const char* const* argv) {
+  if (usage_.empty() && argc > 0) {
+    const std::string program = argv[0];
+    usage_ = program.substr(program.rfind('/') + 1) + " [options]";
+  }
+  return parse(std::vector<std::string>(argv + (argc > 0 ? 1 : 0), argv + argc));
+}
+
+inline CommandLine Config::parse(const std::vector<std::string>& arguments) {
+  detail::CommandLineReader reader(parameters_, arguments);
+  reader.read();
+  std::vector<Source> sources(reader.files.size() + 2);
+  for (std::size_t i = 0; i < reader.files.size(); ++i) readFile(reader.files[i], sources[i]);
+  readEnvironment(sources[reader.files.size()]);
+  sources.back().name = "command line";
+  sources.back().given = reader.given;
+  takeOver(sources);
+  CommandLine line;
+  line.rest = reader.rest;
+  if (reader.question == "help") line.answer = help();
+  if (reader.question == "dump_config") line.answer = dump();
+  if (reader.question == "bash_completion") line.answer = bashCompletion();
+  if (line.answer.empty()) checkRequired();
+  return line;
+}
+
+inline void Config::checkRequired() const {
+  const Svar tree = snapshot();
+  for (const std::unique_ptr<detail::Parameter>& one : parameters_) {
+    if (!one->is_required || tree.contains(one->name)) continue;
+    throw ConfigError("--" + one->name, "must be given: " + one->help);
+  }
+}
+
+// --- telling
+
+inline std::string Config::programName() const {
+  return usage_.substr(0, usage_.find(' '));
+}
+
+// set() does not say that it was called; the value does.
+inline std::string Config::originOf(const detail::Parameter& parameter, const Svar& tree) const {
+  const Svar* const now = detail::SvarParts::find(tree, parameter.name);
+  if (now == nullptr) return "nowhere";
+  const bool is_default = parameter.origin == "default";
+  const Svar& then = is_default ? parameter.default_value : parameter.given;
+  if (*now == then) return parameter.origin;
+  return "program";
+}
+
+inline std::string Config::origin(const std::string& name) const {
+  const detail::Parameter* const parameter = detail::findParameter(parameters_, name);
+  if (parameter == nullptr) throw ArgumentError(name, "is no parameter");
+  return originOf(*parameter, snapshot());
+}
+
+inline std::string Config::help(std::size_t width) const {
+  const Svar tree = snapshot();
+  std::string out = "Usage: ";
+  detail::appendWrapped(out, usage_.empty() ? "PROGRAM [options]" : usage_, out.size(), 7, width);
+  out += "\n";
+  if (!about_.empty()) {
+    detail::appendWrapped(out, about_, 0, 0, width);
+    out += "\n";
+  }
+  detail::HelpTable table(width);
+  for (const std::unique_ptr<detail::Parameter>& one : parameters_) {
+    table.add(one->group, detail::parameterUsage(*one),
+              detail::parameterHelp(*one, tree, originOf(*one, tree)));
+  }
+  table.add("General", "--config FILE", "read parameters from a file; may be given several times");
+  table.add("General", "--dump-config", "print all values as JSON, which --config reads, and end");
+  table.add("General", "--bash-completion", "print a script for bash, to be sourced, and end");
+  table.add("General", "-h, --help", "print this and end");
+  out += table.text() + "\n";
+  const std::string variables =
+      environment_.empty() ? "" : ", environment (" + environment_ + "NAME)";
+  detail::appendWrapped(out, "Later ones win: defaults, files" + variables + ", command line.", 0,
+                        0, width);
+  return out + "\n";
+}
+
+inline std::string Config::dump() const {
+  const Svar tree = snapshot();
+  Svar values = Svar::object();
+  for (const std::unique_ptr<detail::Parameter>& one : parameters_) {
+    const Svar* const value = detail::SvarParts::find(tree, one->name);
+    if (value != nullptr) values.set(one->name, *value);
+  }
+  return printJson(values, 2) + "\n";
+}
+
+inline std::string Config::bashCompletion() const {
+  const std::string program = programName();
+  return detail::bashCompletionScript(program.empty() ? "PROGRAM" : program, parameters_);
+}
+
+}  // namespace v1
+}  // namespace gslam
+
+#endif  // GSLAM_SVAR_DETAIL_CONFIG_IMPL_H
