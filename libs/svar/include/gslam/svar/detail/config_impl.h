@@ -154,11 +154,10 @@ inline void Config::lay(const Source& source, Svar& over) const {
   const Svar tree = snapshot();
   for (const detail::Given& one : source.given) {
     try {
-      Svar next;
-      next.set(one.path, one.value.clone());
-      next = over.merged(next);
-      one.parameter->rule->check(tree.merged(next).get<Svar>(one.parameter->name));
-      over = next;
+      const std::string& name = one.parameter->name;
+      const bool again = over.contains(one.path);
+      over.set(one.path, again ? over[one.path].merged(one.value) : one.value.clone());
+      one.parameter->rule->check(tree.contains(name) ? tree[name].merged(over[name]) : over[name]);
     } catch (const SvarError& error) {
       // The place says which parameter it is, unless it is a file.
       const bool in_file = one.place == source.name;
