@@ -124,7 +124,7 @@ TEST(Bind, RefusesWhatTheVariableCannotTake) {
 TEST(Bind, CopyOutlivesTheTree) {
   const auto copy = [] {
     SharedSvar tree;
-    const Bound<int> made = tree.bind<int>("x", 1);
+    Bound<int> made = tree.bind<int>("x", 1);
     tree.set("x", 2);
     return made;
   }();

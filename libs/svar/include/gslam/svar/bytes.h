@@ -1,10 +1,12 @@
-// Hashing and comparing bytes. Hashes differ between machines of different byte order.
 #ifndef GSLAM_SVAR_BYTES_H
 #define GSLAM_SVAR_BYTES_H
 
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+
+/// @file
+/// Hashing and comparing bytes. Hashes differ between machines of different byte order.
 
 namespace gslam {
 inline namespace v1 {

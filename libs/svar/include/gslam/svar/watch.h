@@ -51,6 +51,7 @@ class Watch {
   Watch() = default;
   /// Ends it as reset() does.
   ~Watch() { reset(); }
+  /// Takes over what the other watches.
   Watch(Watch&&) noexcept = default;
   /// Ends what this watched before.
   Watch& operator=(Watch&& other) noexcept {

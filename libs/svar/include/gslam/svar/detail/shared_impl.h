@@ -149,7 +149,7 @@ inline void SharedSvar::addRule(std::unique_ptr<detail::SvarRule> rule, const Sv
   change([&](const Svar& root) {
     const Svar* const there = find(root, path);
     rule->check(there != nullptr ? *there : value);
-    const Svar next = there != nullptr ? root : with(root, path, value);
+    Svar next = there != nullptr ? root : with(root, path, value);
     rules_.push_back(std::move(rule));
     return next;
   });
