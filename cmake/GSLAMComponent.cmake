@@ -18,7 +18,12 @@
 #   compiled one, gslam/<name>/export.h; the package GSLAM_<name> with config, version and
 #   pkg-config files, all in the install component <name>; one test program, one benchmark program
 #   and one program for each example. A package inside another library's folder (svar_formats) is a
-#   sub-folder of the same shape that has no VERSION of its own.
+#   sub-folder of the same shape that has no VERSION of its own, which the library adds by
+#
+#   gslam_package_inside(formats NEEDS yaml-cpp pugixml)
+#
+#   and which is left out, aloud, where what it needs is not installed. Asked for by its name, it
+#   is not.
 
 include_guard(DIRECTORY)  # each folder that a foreign project adds needs these variables anew
 include(GNUInstallDirs)
@@ -36,9 +41,11 @@ include("${GSLAM_CMAKE_DIR}/GSLAMUmbrella.cmake")
 function(gslam_component name)
   cmake_parse_arguments(ARG "" "SUMMARY;KIND;STANDARD"
     "DEPENDS;SOURCES;PACKAGES;LINK;PRIVATE_PACKAGES;PRIVATE_LINK;PKGCONFIG;DEBIAN" ${ARGN})
-  if(TARGET gslam_${name})
-    return()  # somebody who needed it was added before it
+  get_property(begun GLOBAL PROPERTY GSLAM_${name}_BEGUN)
+  if(begun)
+    return()  # somebody who needed it was added before it, or it needs the library around it
   endif()
+  set_property(GLOBAL PROPERTY GSLAM_${name}_BEGUN ON)
   if(ARG_UNPARSED_ARGUMENTS OR NOT ARG_SUMMARY OR NOT ARG_KIND MATCHES "^(headers|compiled)$")
     message(FATAL_ERROR "gslam_component(${name}): SUMMARY and KIND headers|compiled are needed, "
       "and these words are not understood: '${ARG_UNPARSED_ARGUMENTS}'")
@@ -84,6 +91,26 @@ function(gslam_component name)
   _gslam_add_programs(${name} ${ARG_STANDARD})
 endfunction()
 
+# Adds the package in a sub-folder of this library, unless it is what needs this library. In a foreign
+# project it is built by whoever links it.
+function(gslam_package_inside folder)
+  cmake_parse_arguments(ARG "" "" "NEEDS" ${ARGN})
+  get_filename_component(library "${CMAKE_CURRENT_SOURCE_DIR}" NAME)
+  get_property(begun GLOBAL PROPERTY GSLAM_${library}_${folder}_BEGUN)
+  foreach(package IN LISTS ARG_NEEDS)
+    find_package(${package} QUIET)
+    if(NOT ${package}_FOUND AND NOT begun)
+      message(STATUS "${library}_${folder} is left out: ${package} is not installed")
+      return()
+    endif()
+  endforeach()
+  if(NOT begun AND GSLAM_INSTALL)
+    add_subdirectory(${folder})
+  elseif(NOT begun)
+    add_subdirectory(${folder} EXCLUDE_FROM_ALL)
+  endif()
+endfunction()
+
 # VERSION of the folder, or of the library folder around it.
 function(_gslam_read_version folder out)
   if(NOT EXISTS "${folder}/VERSION")
@@ -100,6 +127,17 @@ function(_gslam_read_version folder out)
   set(${out} ${version} PARENT_SCOPE)
 endfunction()
 
+# Where a component is below libs/: <name>, or for svar_formats svar/formats; empty where it is not.
+function(_gslam_find_folder name out)
+  set(${out} "" PARENT_SCOPE)
+  string(REGEX REPLACE "_" "/" nested "${name}")
+  foreach(folder IN ITEMS ${nested} ${name})
+    if(EXISTS "${GSLAM_SOURCE_ROOT}/libs/${folder}/CMakeLists.txt")
+      set(${out} "${folder}" PARENT_SCOPE)
+    endif()
+  endforeach()
+endfunction()
+
 # Makes GSLAM::<dependency> exist: built beside us when the checkout has it, else as a package.
 function(_gslam_add_dependencies name depends out)
   set(targets "")
@@ -108,14 +146,14 @@ function(_gslam_add_dependencies name depends out)
     if(NOT least MATCHES "^[0-9]+(\\.[0-9]+)*$")
       message(FATAL_ERROR "gslam_component(${name}): DEPENDS ${dependency} needs a version after it")
     endif()
-    set(folder "${GSLAM_SOURCE_ROOT}/libs/${dependency}")
-    if(NOT TARGET GSLAM::${dependency} AND EXISTS "${folder}/CMakeLists.txt")
+    _gslam_find_folder(${dependency} folder)
+    if(NOT TARGET GSLAM::${dependency} AND folder)
       if(NOT GSLAM_IS_WHOLE)
         set(GSLAM_BUILD_TESTS OFF)  # only what was asked for is tested
         set(GSLAM_BUILD_BENCH OFF)
         set(GSLAM_BUILD_EXAMPLES OFF)
       endif()
-      add_subdirectory("${folder}" "${GSLAM_BINARY_ROOT}/libs/${dependency}")
+      add_subdirectory("${GSLAM_SOURCE_ROOT}/libs/${folder}" "${GSLAM_BINARY_ROOT}/libs/${folder}")
     elseif(NOT TARGET GSLAM::${dependency})
       find_package(GSLAM_${dependency} ${least} CONFIG REQUIRED)
     endif()
