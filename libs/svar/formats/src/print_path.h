@@ -32,23 +32,40 @@ inline bool isContainer(const Svar& value) {
   return value.type() == SvarType::array || value.type() == SvarType::object;
 }
 
-/// Throws SvarError for a wrong character in a string, or in a name, of the part that is printed.
-/// @param format  such as "YAML"
+/// The path of the part that is printed; of one around it where `depth` says so.
 template <class Open>
-[[noreturn]] void failPrint(const std::vector<Open>& open, const char* format, bool in_name,
-                            const WrongCharacter& wrong) {
+std::string pathOf(const std::vector<Open>& open, std::size_t depth) {
   std::string path;
-  const std::size_t depth = open.size() - (in_name ? 1 : 0);
   for (std::size_t i = 0; i < depth; ++i) {
     const OpenPart& outer = open[i].part;
     if (i != 0) path += '.';
     path += outer.members != nullptr ? outer.members[outer.next - 1].first
                                      : std::to_string(outer.next - 1);
   }
+  return path;
+}
+
+[[noreturn]] inline void failPrint(const std::string& path, const char* format,
+                                   const std::string& expected, const std::string& found) {
+  throw SvarError(path, std::string("cannot be printed as ") + format + ": expected " + expected +
+                            ", found " + found);
+}
+
+/// For a wrong character in a string, or in a name.
+/// @param format  such as "YAML"
+template <class Open>
+[[noreturn]] void failCharacter(const std::vector<Open>& open, const char* format, bool in_name,
+                                const WrongCharacter& wrong) {
   std::string found = wrong.found + " at " + std::to_string(wrong.offset);
   if (in_name) found += " of the name of member " + std::to_string(open.back().part.next - 1);
-  throw SvarError(path, std::string("cannot be printed as ") + format + ": expected " +
-                            wrong.expected + ", found " + found);
+  failPrint(pathOf(open, open.size() - (in_name ? 1 : 0)), format, wrong.expected, found);
+}
+
+/// For a function or native object.
+template <class Open>
+[[noreturn]] void failType(const std::vector<Open>& open, const char* format, const Svar& value) {
+  failPrint(pathOf(open, open.size()), format, std::string("a value that ") + format + " has",
+            detail::SvarParts::describe(value));
 }
 
 }  // namespace formats

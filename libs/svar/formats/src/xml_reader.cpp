@@ -2,13 +2,11 @@
 #include <gslam/svar_formats/xml.h>
 
 #include <cstring>
-#include <iterator>
 #include <pugixml.hpp>
-#include <unordered_map>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
+#include "base64.h"
 #include "opencv.h"
 #include "plain_scalar.h"
 #include "source_text.h"
@@ -40,23 +38,20 @@ bool isText(const pugi::xml_node& node) {
 /// An object of these members; those of the same name become an array at the place of the first.
 Svar objectOf(Members members) {
   OrderedMap<Svar> map;
-  map.assign(std::move(members));
-  if (map.firstRepeat().first == map.members().size()) return SvarParts::object(std::move(map));
-  Members grouped;
-  std::unordered_map<std::string, std::size_t> places;
-  std::vector<char> is_array;
+  const std::size_t size = members.size();
+  if (map.assign(std::move(members)).first == size) return SvarParts::object(std::move(map));
+  OrderedMap<std::vector<Svar>> groups;
   for (Svar::Member& member : map.members()) {
-    const auto place = places.emplace(member.first, grouped.size());
-    if (place.second) {
-      grouped.push_back(std::move(member));
-      is_array.push_back(0);
-      continue;
-    }
-    Svar& first = grouped[place.first->second].second;
-    char& is_made = is_array[place.first->second];
-    if (is_made == 0) first = Svar::array({first});
-    is_made = 1;
-    first.push_back(std::move(member.second));
+    std::vector<Svar>* group = groups.find(member.first);
+    if (group == nullptr) group = &groups.insert(member.first, {});
+    group->push_back(std::move(member.second));
+  }
+  Members grouped;
+  for (auto& group : groups.members()) {
+    const bool is_one = group.second.size() == 1;
+    Svar value =
+        is_one ? std::move(group.second.front()) : SvarParts::array(std::move(group.second));
+    grouped.emplace_back(std::move(group.first), std::move(value));
   }
   map.assign(std::move(grouped));
   return SvarParts::object(std::move(map));
@@ -117,12 +112,12 @@ class XmlReader {
   }
 
   void checkAttributes(const Open& element) const {
-    std::unordered_set<std::string> names;
-    for (const Svar::Member& attribute : element.members) {
-      if (names.insert(attribute.first).second) continue;
-      source_.fail(offsetOf(element.node), "expected each attribute once, found " +
-                                               quoted(attribute.first.substr(1)) + " twice");
-    }
+    OrderedMap<Svar> map;
+    const OrderedMap<Svar>::Repeat repeat = map.assign(element.members);
+    if (repeat.first == element.members.size()) return;
+    const std::string& name = element.members[repeat.second].first;
+    source_.fail(offsetOf(element.node),
+                 "expected each attribute once, found " + quoted(name.substr(1)) + " twice");
   }
 
   void addAttribute(const pugi::xml_attribute& attribute) {
@@ -146,11 +141,13 @@ class XmlReader {
     }
     if (!hasPrefix(name, xml_marks::kPrefix)) return false;
     const Text type(attribute.value());
-    const bool is_known = type == Text("string") || type == Text("array") || type == Text("object");
+    const bool is_known = type == Text("string") || type == Text("binary") ||
+                          type == Text("array") || type == Text("object");
     if (std::strcmp(name, xml_marks::kType) != 0 || !is_known) {
-      source_.fail(offsetOf(inner.node),
-                   "expected the mark svar:type=\"string\", \"array\" or \"object\", found " +
-                       std::string(name) + "=" + quoted(type));
+      source_.fail(
+          offsetOf(inner.node),
+          "expected the mark svar:type=\"string\", \"binary\", \"array\" or \"object\", found " +
+              std::string(name) + "=" + quoted(type));
     }
     inner.type = attribute.value();
     return true;
@@ -164,9 +161,9 @@ class XmlReader {
   }
 
   Svar value_(Open& done) const {
-    if (done.type == "string") {
-      if (!done.members.empty()) fail(done, "text only in what is marked as a string");
-      return SvarParts::string(done.text);
+    if (done.type == "string" || done.type == "binary") {
+      if (!done.members.empty()) fail(done, "text only in what is marked as a " + done.type);
+      return done.type == "string" ? SvarParts::string(done.text) : binaryOf(done);
     }
     const Text text = trimmed(done.text);
     if (done.type == "array") {
@@ -177,6 +174,14 @@ class XmlReader {
     if (done.members.empty() && done.type.empty()) return scalarOf(done, text);
     if (!text.empty()) done.members.emplace_back(xml_marks::kText, scalarOf(done, text));
     return objectOf(std::move(done.members));
+  }
+
+  Svar binaryOf(const Open& element) const {
+    std::vector<std::uint8_t> bytes;
+    if (!readBase64(element.text, bytes)) {
+      source_.fail(offsetOf(element.node), "expected base64, found " + quoted(element.text));
+    }
+    return Svar::binary(bytes.data(), bytes.size());
   }
 
   static Svar arrayOf(Members& members) {

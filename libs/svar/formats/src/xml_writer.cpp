@@ -5,6 +5,7 @@
 #include <cctype>
 #include <vector>
 
+#include "base64.h"
 #include "plain_scalar.h"
 #include "print_path.h"
 #include "source_text.h"
@@ -41,8 +42,16 @@ bool meansItself(Text text, bool is_trimmed) {
 }
 
 bool isPlainScalar(const Svar& value, bool is_trimmed) {
-  if (isContainer(value) || value.isNull()) return false;
-  return value.type() != SvarType::string || meansItself(SvarParts::text(value), is_trimmed);
+  switch (value.type()) {
+    case SvarType::boolean:
+    case SvarType::integer:
+    case SvarType::real:
+      return true;
+    case SvarType::string:
+      return meansItself(SvarParts::text(value), is_trimmed);
+    default:
+      return false;
+  }
 }
 
 bool isAttribute(const Svar::Member& member) {
@@ -122,10 +131,15 @@ class XmlWriter {
       case SvarType::null:
         out_ += "/>";
         return;
-      default:
+      case SvarType::function:
+      case SvarType::native:
+        failType(open_, "XML", value);
+      case SvarType::binary:
+        writeMark(xml_marks::kType, "binary");
         break;
+      default:
+        if (!isPlainScalar(value, true)) writeMark(xml_marks::kType, "string");
     }
-    if (!isPlainScalar(value, true)) writeMark(xml_marks::kType, "string");
     out_ += '>';
     writeScalar(value, false);
     writeEnd(tag);
@@ -201,6 +215,7 @@ class XmlWriter {
   }
 
   void writeScalar(const Svar& value, bool is_attribute) {
+    if (value.type() == SvarType::binary) return appendBase64(value.bytes(), out_);
     if (value.type() != SvarType::string) return appendPlain(value, out_);
     writeText(SvarParts::text(value), is_attribute, false);
   }
@@ -208,7 +223,7 @@ class XmlWriter {
   // What a reader of XML would change or take for markup is written as a reference.
   void writeText(Text text, bool is_attribute, bool is_name) {
     const WrongCharacter wrong = findWrongCharacter(text);
-    if (!wrong.expected.empty()) failPrint(open_, "XML", is_name, wrong);
+    if (!wrong.expected.empty()) failCharacter(open_, "XML", is_name, wrong);
     const bool only_space = !is_attribute && trimmed(text).empty();
     for (const char c : text) {
       const bool is_line_end = c == '\r' || (c == '\n' && is_attribute);

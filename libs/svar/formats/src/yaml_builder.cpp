@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <iterator>
-#include <unordered_set>
 #include <utility>
 
+#include "base64.h"
 #include "opencv.h"
 #include "plain_scalar.h"
 
@@ -204,6 +204,7 @@ Svar YamlBuilder::taggedValue(std::size_t offset, const std::string& tag,
 Svar YamlBuilder::typedValue(std::size_t offset, const std::string& type,
                              const std::string& text) const {
   if (type == "str") return Svar(text);
+  if (type == "binary") return binaryValue(offset, text);
   const SvarType plain = plainType(text);
   const bool is_number = plain == SvarType::integer || plain == SvarType::real;
   const bool fits = type == "int"     ? plain == SvarType::integer
@@ -216,6 +217,13 @@ Svar YamlBuilder::typedValue(std::size_t offset, const std::string& type,
   PlainScalar scalar = plainReal(text);
   if (!scalar.problem.empty()) text_.fail(offset, scalar.problem);
   return std::move(scalar.value);
+}
+
+Svar YamlBuilder::binaryValue(std::size_t offset, const std::string& text) const {
+  std::vector<std::uint8_t> bytes;
+  if (!readBase64(text, bytes))
+    text_.fail(offset, "expected base64 after !!binary, found " + quoted(text));
+  return Svar::binary(bytes.data(), bytes.size());
 }
 
 // --- arrays and objects
@@ -271,14 +279,8 @@ void YamlBuilder::OnSequenceEnd() {
 void YamlBuilder::OnMapEnd() {
   std::vector<Svar::Member> merged;
   OrderedMap<Svar> map = ownMembers(merged);
-  if (!merged.empty()) {
-    std::vector<Svar::Member> all = std::move(map.members());
-    std::unordered_set<std::string> names;
-    for (const Svar::Member& member : all) names.insert(member.first);
-    for (Svar::Member& member : merged) {
-      if (names.insert(member.first).second) all.push_back(std::move(member));
-    }
-    map.assign(std::move(all));
+  for (Svar::Member& member : merged) {
+    if (map.find(member.first) == nullptr) map.insert(member.first, std::move(member.second));
   }
   const Svar object = SvarParts::object(std::move(map));
   const std::string type = typeOfTag(open_.back().tag);
@@ -328,8 +330,8 @@ OrderedMap<Svar> YamlBuilder::ownMembers(std::vector<Svar::Member>& merged) {
     addMerged(name.offset, value, merged);
   }
   OrderedMap<Svar> map;
-  map.assign(std::move(members));
-  if (map.firstRepeat().first != map.members().size()) resolveRepeat(map, offsets);
+  const OrderedMap<Svar>::Repeat repeat = map.assign(std::move(members));
+  if (repeat.first != offsets.size()) resolveRepeat(map, repeat, offsets);
   return map;
 }
 
@@ -346,10 +348,9 @@ void YamlBuilder::addMerged(std::size_t offset, const Svar& value,
   for (const Svar& element : value) add(element);
 }
 
-void YamlBuilder::resolveRepeat(OrderedMap<Svar>& map,
+void YamlBuilder::resolveRepeat(OrderedMap<Svar>& map, OrderedMap<Svar>::Repeat repeat,
                                 const std::vector<std::size_t>& offsets) const {
   if (options_.allow_duplicate_names) return map.keepLast();
-  const std::pair<std::size_t, std::size_t> repeat = map.firstRepeat();
   text_.fail(offsets[repeat.second], "expected each name once, found " +
                                          quoted(map.members()[repeat.first].first) + " also at " +
                                          text_.placeName(offsets[repeat.first]));

@@ -83,12 +83,15 @@ class YamlBuilder : public YAML::EventHandler {
   Svar taggedValue(std::size_t offset, const std::string& tag, const std::string& text) const;
   Svar typedValue(std::size_t offset, const std::string& type, const std::string& text) const;
 
+  Svar binaryValue(std::size_t offset, const std::string& text) const;
+
   void open(std::size_t offset, const std::string& tag, YAML::anchor_t anchor, bool is_object);
   [[noreturn]] void failName(std::size_t offset, const std::string& what) const;
   void close(Svar value);
   detail::OrderedMap<Svar> ownMembers(std::vector<Svar::Member>& merged);
   void addMerged(std::size_t i, const Svar& value, std::vector<Svar::Member>& merged);
-  void resolveRepeat(detail::OrderedMap<Svar>& map, const std::vector<std::size_t>& offsets) const;
+  void resolveRepeat(detail::OrderedMap<Svar>& map, detail::OrderedMap<Svar>::Repeat repeat,
+                     const std::vector<std::size_t>& offsets) const;
   void checkMatrix(const std::string& type, const Svar& matrix) const;
 
   const YamlText& text_;

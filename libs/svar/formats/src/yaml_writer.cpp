@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "base64.h"
 #include "plain_scalar.h"
 #include "print_path.h"
 #include "source_text.h"
@@ -141,7 +142,8 @@ class YamlWriter {
       const SvarType type = element.type();
       const bool is_number = type == SvarType::integer || type == SvarType::real;
       only_numbers = only_numbers && is_number;
-      width += type == SvarType::string ? SvarParts::text(element).size() + 4 : 8;
+      const bool has_size = type == SvarType::string || type == SvarType::binary;
+      width += has_size ? SvarParts::text(element).size() + 4 : 8;
       if (!only_numbers && width > kWidth) return false;
     }
     return true;
@@ -175,8 +177,20 @@ class YamlWriter {
   // --- scalars
 
   void writeScalar(const Svar& value) {
-    if (value.type() != SvarType::string) return appendPlain(value, out_);
-    writeString(SvarParts::text(value), false);
+    switch (value.type()) {
+      case SvarType::string:
+        return writeString(SvarParts::text(value), false);
+      case SvarType::binary:
+        out_ += "!!binary \"";
+        appendBase64(value.bytes(), out_);
+        out_ += '"';
+        return;
+      case SvarType::function:
+      case SvarType::native:
+        failType(open_, "YAML", value);
+      default:
+        appendPlain(value, out_);
+    }
   }
 
   // What is longer than readers look for a colon is marked as a name.
@@ -202,7 +216,7 @@ class YamlWriter {
     out_ += '"';
     for (const char* p = text.begin(); p != text.end();) {
       const std::size_t length = detail::utf8Length(p, text.end());
-      if (length == 0) failPrint(open_, "YAML", is_name, findWrongUtf8(text, p));
+      if (length == 0) failCharacter(open_, "YAML", is_name, findWrongUtf8(text, p));
       if (length == 1) {
         writeByte(*p);
       } else {

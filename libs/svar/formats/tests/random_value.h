@@ -78,7 +78,11 @@ inline std::string anyText(Random& random, bool with_controls) {
 }
 
 inline Svar anyScalar(Random& random, bool with_controls) {
-  switch (below(random, 7)) {
+  switch (below(random, 8)) {
+    case 6: {
+      const std::string bytes = anyText(random, true);
+      return Svar::binary(bytes.data(), bytes.size());
+    }
     case 0:
       return nullptr;
     case 1:

@@ -74,6 +74,8 @@ TEST(XmlParse, Marks) {
       inside(
           "<a svar:type=\"string\">12</a><b svar:type=\"string\"> x\n</b><c svar:type='string'/>"),
       parseJson(R"({"a": "12", "b": " x\n", "c": ""})"));
+  EXPECT_EQ(inside("<a svar:type=\"binary\">\n aGVs\n bG8= </a><b svar:type='binary'/>"),
+            Svar::object({{"a", Svar::binary("hello", 5)}, {"b", Svar::binary("", 0)}}));
   EXPECT_EQ(inside("<a svar:type=\"array\"/><b svar:type=\"array\"><x>1</x><y/></b>"),
             parseJson(R"({"a": [], "b": [1, null]})"));
   EXPECT_EQ(inside("<a svar:type=\"object\"/><b svar:type=\"object\">x</b>"),
@@ -94,14 +96,19 @@ TEST(XmlParse, MarksThatAreWrong) {
   const auto error = [](const std::string& text) {
     return xmlError("<s xmlns:svar=\"urn:gslam:svar\">\n" + text + "</s>");
   };
-  EXPECT_EQ(error("<a svar:type=\"int\"/>"),
-            "2:2: expected the mark svar:type=\"string\", \"array\" or \"object\", found "
-            "svar:type=\"int\"");
-  EXPECT_EQ(error("<a svar:x=\"array\"/>"),
-            "2:2: expected the mark svar:type=\"string\", \"array\" or \"object\", found "
-            "svar:x=\"array\"");
+  EXPECT_EQ(
+      error("<a svar:type=\"int\"/>"),
+      "2:2: expected the mark svar:type=\"string\", \"binary\", \"array\" or \"object\", found "
+      "svar:type=\"int\"");
+  EXPECT_EQ(
+      error("<a svar:x=\"array\"/>"),
+      "2:2: expected the mark svar:type=\"string\", \"binary\", \"array\" or \"object\", found "
+      "svar:x=\"array\"");
   EXPECT_EQ(error("<a svar:type=\"string\"><b/></a>"),
             "2:2: expected text only in what is marked as a string, found more");
+  EXPECT_EQ(error("<a svar:type=\"binary\"><b/></a>"),
+            "2:2: expected text only in what is marked as a binary, found more");
+  EXPECT_EQ(error("<a svar:type=\"binary\">aGk</a>"), "2:2: expected base64, found \"aGk\"");
   EXPECT_EQ(error("<a svar:type=\"array\">x</a>"),
             "2:2: expected elements only in what is marked as an array, found more");
   EXPECT_EQ(error("<a svar:type=\"array\" b=\"\"/>"),

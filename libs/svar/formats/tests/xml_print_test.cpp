@@ -38,6 +38,10 @@ TEST(XmlPrint, Values) {
       {"empty_text", "", "<svar" + kMarked + " svar:type=\"string\"></svar>"},
       {"space_around", " a\r\n", "<svar" + kMarked + " svar:type=\"string\"> a&#13;\n</svar>"},
       {"only_space", " \n", "<svar" + kMarked + " svar:type=\"string\">&#32;&#10;</svar>"},
+      {"binary", Svar::binary("hello", 5),
+       "<svar" + kMarked + " svar:type=\"binary\">aGVsbG8=</svar>"},
+      {"binary_attribute", Svar::object({{"@a", Svar::binary("", 0)}}),
+       "<svar" + kMarked + ">\n  <item svar:name=\"@a\" svar:type=\"binary\"></item>\n</svar>"},
       {"empty_array", Svar::array(), "<svar" + kMarked + " svar:type=\"array\"/>"},
       {"empty_object", Svar::object(), "<svar" + kMarked + " svar:type=\"object\"/>"},
       {"array", Svar::array({1, Svar::array({"a", nullptr})}),
@@ -85,6 +89,8 @@ TEST(XmlPrint, SaysWhatXmlCannotHold) {
   const std::string prefix = "cannot be printed as XML: expected ";
   EXPECT_EQ(error_of(Svar::object({{"a", Svar::array({1, "b\x01"})}})),
             "a.1: " + prefix + "no control character, found byte 0x01 at 1");
+  EXPECT_EQ(error_of(Svar::object({{"a", Svar::function([](int i) { return i; })}})),
+            "a: " + prefix + "a value that XML has, found function int32(int32)");
   EXPECT_EQ(error_of(Svar::object({{"a", Svar::array({"\xFF"})}})),
             "a.0: " + prefix + "UTF-8, found byte 0xFF at 0");
   EXPECT_EQ(error_of(Svar::object({{"a", Svar::object({{"@b", "\xEF\xBF\xBF"}})}})),

@@ -51,6 +51,9 @@ TEST(YamlPrint, Scalars) {
       {"beyond_ascii", "caf\xC3\xA9", "\"caf\xC3\xA9\""},
       {"not_seen", "\xC2\x85\xC2\xA0\xE2\x80\xA8\xEF\xBB\xBF\xEF\xBF\xBE",
        "\"\\u0085\\u00A0\\u2028\\uFEFF\\uFFFE\""},
+      {"binary", Svar::binary("hello", 5), "!!binary \"aGVsbG8=\""},
+      {"empty_binary", Svar::binary("", 0), "!!binary \"\""},
+      {"array_of_binary", Svar::array({Svar::binary("\0\xFF", 2)}), "[!!binary \"AP8=\"]"},
       {"empty_array", Svar::array(), "[]"},
       {"empty_object", Svar::object(), "{}"},
   };
@@ -128,6 +131,9 @@ TEST(YamlPrint, SaysWhereThereIsNoUtf8) {
   };
   EXPECT_EQ(error_of(Svar::object({{"a", Svar::array({1, "ab\xFF"})}})),
             "a.1: cannot be printed as YAML: expected UTF-8, found byte 0xFF at 2");
+  EXPECT_EQ(error_of(Svar::object({{"a", Svar::array({Svar::function([](int i) { return i; })})}})),
+            "a.0: cannot be printed as YAML: expected a value that YAML has, found function "
+            "int32(int32)");
   EXPECT_EQ(error_of("\xC3\xA9\xED\xA0\x80"),
             "cannot be printed as YAML: expected UTF-8, found byte 0xED at 2");
   EXPECT_EQ(

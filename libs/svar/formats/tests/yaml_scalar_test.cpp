@@ -202,6 +202,23 @@ TEST(YamlScalar, Tags) {
   EXPECT_EQ(parseYaml("!mine {a: !yours [1]}"), Svar::object({{"a", Svar::array({1})}}));
 }
 
+TEST(YamlScalar, Binary) {
+  const Case cases[] = {{"!!binary aGVsbG8=", Svar::binary("hello", 5)},
+                        {"!!binary 'aGVs bG8='", Svar::binary("hello", 5)},
+                        {"!!binary aGVsbG8h", Svar::binary("hello!", 6)},
+                        {"!!binary aA==", Svar::binary("h", 1)},
+                        {"!!binary AP/+", Svar::binary("\0\xFF\xFE", 3)},
+                        {"!!binary ''", Svar::binary("", 0)}};
+  check(cases);
+  EXPECT_EQ(parseYaml("a: !!binary |\n  aGVs\n  bG8=\n"),
+            Svar::object({{"a", Svar::binary("hello", 5)}}));
+  for (const char* const wrong :
+       {"aGVsbG8", "aGVsbG8==", "a===", "aGVs=bG8", "aG*s", "aB==", "aGVsbG9=", "="}) {
+    EXPECT_EQ(yamlError("!!binary \"" + std::string(wrong) + "\""),
+              "1:1: expected base64 after !!binary, found \"" + std::string(wrong) + "\"");
+  }
+}
+
 TEST(YamlScalar, TagsAreChecked) {
   EXPECT_EQ(yamlError("a: !!int 1.5"),
             "1:4: expected what the tag !!int stands for, found \"1.5\"");

@@ -33,8 +33,8 @@ struct XmlOptions {
 ///
 /// What would not come back by that is marked by attributes of the namespace `urn:gslam:svar`,
 /// which the root declares as `xmlns:svar`: `svar:type` is `string` (all of the text, white space
-/// and all), `array` (of the elements inside, whatever their names) or `object`; `svar:name` is the
-/// name of a member that can be no name in XML.
+/// and all), `binary` (base64), `array` (of the elements inside, whatever their names) or `object`;
+/// `svar:name` is the name of a member that can be no name in XML.
 ///
 /// **OpenCV.** Inside a root `<opencv_storage>` the rules of its FileStorage hold: text with
 /// several words is an array, text in quotes a string, elements `<_>` are those of an array;
@@ -62,7 +62,8 @@ GSLAM_SVAR_FORMATS_EXPORT Svar loadXml(const std::string& path,
 /// their own are `<item>`. NaN and infinities are `.nan`, `.inf` and `-.inf`.
 /// @param value  what to print; its depth is bounded by memory, not by the stack
 /// @throws SvarError with the path of a string or name that is not UTF-8 or has a character that
-///         XML cannot hold: control characters but tab and line ends, U+FFFE, U+FFFF
+///         XML cannot hold: control characters but tab and line ends, U+FFFE, U+FFFF; of a function
+///         or a native object
 GSLAM_SVAR_FORMATS_EXPORT std::string printXml(const Svar& value);
 
 /// Writes printXml() and a line end to a file. The text goes to a new file beside it, which then

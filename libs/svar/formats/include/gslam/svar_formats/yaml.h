@@ -81,11 +81,11 @@ GSLAM_SVAR_FORMATS_EXPORT std::vector<Svar> loadYamlDocuments(
 
 /// YAML text, without a line end after it, that parseYaml() reads as an equal value where it is no
 /// deeper than that admits. Each member stands on a line of its own, arrays of numbers and short
-/// ones of other scalars are `[1, 2, 3]`. Strings that somebody, be it by the rules of YAML 1.1,
-/// would read as something else are quoted; doubles have a point and as many digits as say which
+/// ones of other scalars are `[1, 2, 3]`. Strings that a reader of YAML 1.1 would take for
+/// something else are quoted, too; doubles have a point and as many digits as say which
 /// double it is.
 /// @param value  what to print; its depth is bounded by memory, not by the stack
-/// @throws SvarError with the path of a string that is not UTF-8
+/// @throws SvarError with the path of a string that is not UTF-8, a function or a native object
 GSLAM_SVAR_FORMATS_EXPORT std::string printYaml(const Svar& value);
 
 /// Writes printYaml() and a line end to a file. The text goes to a new file beside it, which then
