@@ -4,7 +4,8 @@
 usage: check_libraries.py HOUSE_JSON
 
 * VERSION, CHANGELOG.md, README.md, include/, tests/, bench/ and examples/ are there, and
-  tests/instantiate.cpp, with which headers are checked at -O2.
+  tests/instantiate.cpp, with which headers are checked at -O2. A package inside another library's
+  folder has neither VERSION nor CHANGELOG.md of its own.
 * The newest entry of CHANGELOG.md is the version in VERSION, with a date.
 * Every ```cpp block of README.md (the project's and docs/index.md, too) stands word for word in a
   file of examples/, which the build compiles and runs as a test; every README has one.
@@ -18,6 +19,7 @@ import sys
 
 PAPERS = ["VERSION", "CHANGELOG.md", "README.md", "include", "tests", "bench", "examples",
           "tests/instantiate.cpp"]
+OF_LIBRARIES = ["VERSION", "CHANGELOG.md"]
 BLOCK = re.compile(r"^```cpp\n(.*?)^```", re.MULTILINE | re.DOTALL)
 ENTRY = re.compile(r"^## \[?(\d+\.\d+\.\d+)\]? - \d{4}-\d{2}-\d{2}$", re.MULTILINE)
 
@@ -47,18 +49,20 @@ def check_changelog(folder):
 
 
 def check_library(folder):
-    absent = [paper for paper in PAPERS if not (folder / paper).exists()]
+    is_inside = (folder.parent / "VERSION").exists()
+    papers = [paper for paper in PAPERS if not is_inside or paper not in OF_LIBRARIES]
+    absent = [paper for paper in papers if not (folder / paper).exists()]
     if absent:
         yield f"{folder}: lacks {', '.join(absent)}"
         return
-    yield from check_changelog(folder)
+    if not is_inside:
+        yield from check_changelog(folder)
     yield from check_readme(folder / "README.md", [folder / "examples"])
 
 
 def check(root, folders):
     for folder in folders:
-        if (folder / "VERSION").exists():  # a package inside another library's folder has none
-            yield from check_library(folder)
+        yield from check_library(folder)
     for page in ("README.md", "docs/index.md"):
         yield from check_readme(root / page, [folder / "examples" for folder in folders])
 

@@ -56,6 +56,16 @@ class CheckLibraries(unittest.TestCase):
         (self.library / "CHANGELOG.md").unlink()
         self.assertIn("lacks CHANGELOG.md", self.complaints()[0])
 
+    def test_a_package_inside_a_library(self):
+        for path in ("tests/instantiate.cpp", "examples/two.cpp", "include/a.h", "bench/b.cpp"):
+            self.write("inside/" + path, "int d;\n")
+        inside = [self.library, self.library / "inside"]
+        complaints = list(check_libraries.check(self.root, inside))
+        self.assertEqual(len(complaints), 1)
+        self.assertIn("inside: lacks README.md", complaints[0])
+        self.write("inside/README.md", "# Two\n```cpp\nint d;\n```\n")
+        self.assertEqual(list(check_libraries.check(self.root, inside)), [])
+
 
 if __name__ == "__main__":
     unittest.main()

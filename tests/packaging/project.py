@@ -137,6 +137,9 @@ def copy_checkout(house, folder):
 def install_checkout(source, prefix, *components, options=()):
     """Installs components of a (changed) checkout, without its tests; all of them if none given."""
     build = source / "build"
+    libraries = [name for name in components if name != "cmake"] or ["base"]
+    if components:  # compiled libraries that nobody asked for would take minutes
+        options = [f"-DGSLAM_COMPONENTS={';'.join(libraries)}", *options]
     run("cmake", "-S", source, "-B", build, "-G", "Ninja", "-DGSLAM_BUILD_TESTS=OFF",
         "-DGSLAM_BUILD_EXAMPLES=OFF", *options)
     run("cmake", "--build", build)

@@ -156,11 +156,11 @@ class XmlReader {
   Svar::Member close() {
     Open done = std::move(open_.back());
     open_.pop_back();
-    Svar value = is_opencv_ ? openCvValue(done) : value_(done);
+    Svar value = is_opencv_ ? openCvValueOf(done) : valueOf(done);
     return {std::move(done.name), std::move(value)};
   }
 
-  Svar value_(Open& done) const {
+  Svar valueOf(Open& done) const {
     if (done.type == "string" || done.type == "binary") {
       if (!done.members.empty()) fail(done, "text only in what is marked as a " + done.type);
       return done.type == "string" ? SvarParts::string(done.text) : binaryOf(done);
@@ -207,7 +207,7 @@ class XmlReader {
 
   // --- OpenCV's FileStorage
 
-  Svar openCvValue(Open& done) const {
+  Svar openCvValueOf(Open& done) const {
     const bool is_matrix = isOpenCvMatrix(done.type);
     if (done.members.empty() && !is_matrix) return openCvText(done);
     bool is_array = done.element == 0;

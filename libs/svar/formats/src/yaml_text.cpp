@@ -89,9 +89,12 @@ class OpenCvSpacer {
   std::string flow_;  // the brackets that are open
 };
 
+// YAML itself has a space there, and nobody but OpenCV says that it is version 1.0.
 bool isOpenCv(Text text) {
-  const Text head("%YAML:");
-  return text.size() > head.size() && Text(text.data(), head.size()) == head;
+  for (const Text head : {Text("%YAML:"), Text("%YAML 1.0")}) {
+    if (text.size() > head.size() && Text(text.data(), head.size()) == head) return true;
+  }
+  return false;
 }
 
 }  // namespace

@@ -11,8 +11,9 @@
 namespace gslam {
 namespace formats {
 
-/// The text of a source; where that begins with %YAML:1.0, as OpenCV writes it, with a comment in
-/// its place and a space after each colon that ends a name. Offsets are those in this text.
+/// The text of a source; where that begins with %YAML:1.0 or %YAML 1.0, as for OpenCV, with a
+/// comment in its place and a space after each colon that ends a name. Offsets are those in this
+/// text.
 class YamlText {
  public:
   explicit YamlText(const SourceText& source);

@@ -86,9 +86,9 @@ TEST(OpenCv, TheSameValueFromYamlAndXml) {
 TEST(OpenCv, HeadsOfYaml) {
   const Svar expected = Svar::object({{"a", 1}, {"b", Svar::object({{"x", 2}})}});
   for (const char* const head :
-       {"%YAML:1.0\n", "%YAML:1.0\n---\n", "%YAML 1.0\n---\n", "%YAML:1.0 # why\n\n",
+       {"%YAML:1.0\n", "%YAML:1.0\n---\n", "%YAML 1.0\n---\n", "%YAML 1.0\n", "%YAML:1.0 # why\n\n",
         "\xEF\xBB\xBF%YAML:1.0\n", "%YAML:1.0\r\n---\r\n"}) {
-    EXPECT_EQ(parseYaml(head + std::string("a: 1\nb: { x: 2 }\n")), expected) << head;
+    EXPECT_EQ(parseYaml(head + std::string("a: 1\nb: { x:2 }\n")), expected) << head;
   }
 }
 

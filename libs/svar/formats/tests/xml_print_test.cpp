@@ -165,7 +165,7 @@ TEST(XmlLimit, OddTextsTakeLinearTime) {
   const auto begin = std::chrono::steady_clock::now();
   for (const char* const piece : pieces) {
     std::string text = "<r>";
-    while (text.size() < 1000000) text += piece;
+    while (text.size() < 500000) text += piece;
     for (const std::string& odd : {text, text.substr(3), text + "</r>"}) {
       EXPECT_FALSE(xmlError(odd).empty()) << piece;
     }

@@ -21,15 +21,15 @@ struct XmlOptions {
 
 /// The value of an XML text. The name of the root element does not count; then
 ///
-/// | XML | value |
-/// | --- | --- |
-/// | element with nothing in it, or only white space | null |
-/// | element with text only, `<fps>30</fps>` | scalar: the text without the white space around it,
-/// read as a plain scalar by parseYaml(), here int 30 | | element with elements inside | object; a
-/// name that is repeated is an array at the place of the first | | attribute, `unit="m"` | member
-/// "@unit" of the object that its element then is; a scalar, read the same way | | text beside
-/// attributes or elements | member "#text" | | CDATA section | text | | comments, processing
-/// instructions, DOCTYPE | nothing |
+/// * an element with nothing in it, or only white space, is null;
+/// * an element with text only is a scalar: its text, without the white space around it, is read as
+///   parseYaml() reads a plain scalar, so that `<fps>30</fps>` is the int 30;
+/// * an element with elements inside is an object, in which a name that is repeated is an array at
+///   the place of the first;
+/// * an attribute is a member of the object that its element then is: `unit="m"` has the name
+///   "@unit"; its value is read as text is, white space and all;
+/// * text beside attributes or elements is the member "#text", a CDATA section is text;
+/// * comments, processing instructions and DOCTYPE are nothing.
 ///
 /// What would not come back by that is marked by attributes of the namespace `urn:gslam:svar`,
 /// which the root declares as `xmlns:svar`: `svar:type` is `string` (all of the text, white space

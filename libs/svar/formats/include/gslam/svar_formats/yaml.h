@@ -42,10 +42,10 @@ struct YamlOptions {
 ///
 /// **Names** are scalars, taken as text: `1: a` has the name "1".
 ///
-/// **OpenCV.** After `%YAML:1.0` the dialect of its FileStorage is read, where no space needs to
-/// stand after a colon. `!!opencv-matrix` and `!!opencv-nd-matrix` anywhere are the object that
-/// stands there, {"rows", "cols", "dt", "data"} or {"sizes", "dt", "data"}; that these fit together
-/// is checked.
+/// **OpenCV.** After `%YAML:1.0` or `%YAML 1.0` the dialect of its FileStorage is read, where no
+/// space needs to stand after a colon. `!!opencv-matrix` and `!!opencv-nd-matrix` anywhere are the
+/// object that stands there, {"rows", "cols", "dt", "data"} or {"sizes", "dt", "data"}; that these
+/// fit together is checked.
 ///
 /// Text is UTF-8 without control characters but tab and line ends, and checked to be.
 /// @param text     need not end in a zero byte
