@@ -94,8 +94,10 @@ TEST(YamlLimit, MergesOfMergesEndInAnError) {
   std::string text = "- &a0 {k: [1, 2, 3, 4, 5, 6, 7, 8, 9]}\n";
   for (int i = 1; i < 30; ++i) {
     const std::string inner = "*a" + std::to_string(i - 1);
-    text += "- &a" + std::to_string(i) + " {<<: " + inner + ", x" + std::to_string(i) + ": " +
-            inner + "}\n";
+    const std::string number = std::to_string(i);
+    text += "- &a" + number;
+    text += " {<<: " + inner + ", x" + number;
+    text += ": " + inner + "}\n";
   }
   gslam::YamlOptions options;
   options.max_values = 100000;

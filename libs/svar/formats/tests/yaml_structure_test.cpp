@@ -163,6 +163,20 @@ TEST(YamlStructure, OrderOfMembersIsKept) {
   EXPECT_EQ(gslam::printJson(parseYaml("c: 1\na: 2\nb: 3")), R"({"c":1,"a":2,"b":3})");
 }
 
+// The object was made inside of the library, which may be a shared one, and is asked here.
+TEST(YamlStructure, ManyNamesAreFound) {
+  std::string yaml, xml = "<a>";
+  for (int i = 0; i < 100; ++i) {
+    const std::string number = std::to_string(i);
+    yaml += "n" + number + ": " + number + "\n";
+    xml += "<n" + number + ">" + number;
+    xml += "</n" + number + ">";
+  }
+  for (const Svar& value : {parseYaml(yaml), gslam::parseXml(xml + "</a>")}) {
+    for (int i = 0; i < 100; ++i) EXPECT_EQ(value.get<int>("n" + std::to_string(i), -1), i);
+  }
+}
+
 TEST(YamlStructure, AliasesAreCopies) {
   const Svar value = parseYaml("a: &x {k: [1]}\nb: *x\nc: *x\n");
   Svar list = value["b"]["k"];
