@@ -103,11 +103,16 @@ class OrderedMap {
     std::uint32_t hash;
   };
 
+  std::uint64_t hashOf(Text name) const noexcept {
+    return hashBytes(name.data(), name.size(), seed_);
+  }
+
   // Names come from files. Who writes a file cannot know where this program lies in memory, so he
-  // cannot choose names that all fall on one slot.
-  static std::uint64_t hashOf(Text name) noexcept {
+  // cannot choose names that all fall on one slot. A map keeps the seed of who made it: a shared
+  // library may have the place elsewhere.
+  static std::uint64_t newSeed() noexcept {
     static const char place = 0;
-    return hashBytes(name.data(), name.size(), reinterpret_cast<std::uintptr_t>(&place));
+    return reinterpret_cast<std::uintptr_t>(&place);
   }
 
   // The index of the name, or size().
@@ -177,6 +182,7 @@ class OrderedMap {
 
   std::vector<Member> members_;
   std::vector<Slot> slots_;  // empty, or at least twice as many as members
+  std::uint64_t seed_ = newSeed();
 };
 
 }  // namespace detail
