@@ -161,6 +161,22 @@ TEST(Pointer, EndingInADashAppends) {
   EXPECT_EQ(value["list"].size(), 4u);
 }
 
+TEST(Pointer, MayBeANameInTheObjectThatIsWritten) {
+  for (int others = 0; others < 20; ++others) {
+    for (const char* name : {"/x", "/x/y/z", "/n0/y", "/~1x"}) {
+      SCOPED_TRACE(name);
+      Svar value = Svar::object({{name, "as it is"}});
+      for (int i = 0; i < others; ++i) value.set("n" + std::to_string(i), nullptr);
+      const Svar before = value.clone();
+      value.set(value.members()[0].first, 5);
+      EXPECT_EQ(value.get<int>(name), 5);
+      EXPECT_EQ(value.merged(before).members()[0].first, name);
+      EXPECT_TRUE(value.erase(value.members()[0].first));
+      EXPECT_FALSE(value.contains(name));
+    }
+  }
+}
+
 TEST(Pointer, ErrorsNameItAsItWasWritten) {
   const Svar value = gslam::parseJson(R"({"camera": [{"f/x": "a"}]})");
   EXPECT_EQ(errorText([&] { value.get<int>("/camera/0/f~1x"); }),

@@ -372,7 +372,8 @@ class GSLAM_PUBLIC Svar {
   const Svar* find(detail::Text path) const;
   Svar* child(detail::Text name) const;
   bool mayHave(detail::Text name) const;
-  Svar& makeChild(detail::Text name);
+  void addChild(detail::Text name, Svar value);
+  static Svar wrapped(detail::PathReader rest, Svar value);
   Walk walk(detail::Text path) const;
   static bool isBehind(Walk& end);
   static void checkWrite(detail::Text path, const Walk& end, const Svar& value);

@@ -233,9 +233,28 @@ void Svar::failMissing(detail::Text path, Walk end) {
 
 // --- writing
 
-inline Svar& Svar::makeChild(detail::Text name) {
-  if (isNull()) *this = object();
-  return asObject().insert(name, Svar());
+inline void Svar::addChild(detail::Text name, Svar value) {
+  if (!isNull()) {
+    asObject().insert(name, std::move(value));
+    return;
+  }
+  Svar made = object();
+  made.asObject().insert(name, std::move(value));
+  swap(made);
+}
+
+// Puts the objects that the rest of the path names around a value.
+inline Svar Svar::wrapped(detail::PathReader rest, Svar value) {
+  if (rest.isLast()) return value;
+  Svar outermost;
+  Svar* place = &outermost;
+  while (!rest.isLast()) {
+    rest.next();
+    place->addChild(rest.name(), Svar());
+    place = &place->asObject().members().back().second;
+  }
+  *place = std::move(value);
+  return outermost;
 }
 
 // "/-" at the end of a path: the place behind the last element of an array.
@@ -263,13 +282,13 @@ inline void Svar::set(detail::Text path, Svar value) & {
   }
   checkWrite(path, end, value);
   if (behind) return end.at->asArray().push_back(std::move(value));
-  Svar* place = const_cast<Svar*>(end.at);  // it is inside of this, which is not const
-  while (!end.found) {
-    place = &place->makeChild(end.reader.name());
-    end.found = end.reader.isLast();
-    if (!end.found) end.reader.next();
+  Svar* const place = const_cast<Svar*>(end.at);  // it is inside of this, which is not const
+  if (end.found) {
+    *place = std::move(value);
+  } else {
+    // The last step, for it may move what the path views: a name in this object.
+    place->addChild(end.reader.name(), wrapped(end.reader, std::move(value)));
   }
-  *place = std::move(value);
 }
 
 inline void Svar::push_back(Svar value) & {
