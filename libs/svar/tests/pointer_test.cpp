@@ -86,10 +86,10 @@ TEST(Pointer, TildesNeedASlashSomewhereToMeanAnything) {
 }
 
 TEST(Pointer, MalformedIsAlwaysAnError) {
-  const Svar before = gslam::parseJson(R"({"a": {"b": 1}, "": 2})");
+  const Svar before = gslam::parseJson(R"({"a": {"b": 1, "~": 3}, "": 2, "~": 4, "a~": 5})");
   Svar value = before.clone();
   EXPECT_EQ(errorText([&] { value.get<int>("/a~2"); }),
-            "/a~2: expected ~0 or ~1, as which / and ~ are written in a path");
+            "/a~2: expected ~0 or ~1, as which ~ and / are written in a path");
   for (const char* path :
        {"/~", "/a~", "/a~2", "/~/a", "a/~", "a/b~", "/a/~x", "a/", "a//b", "/a/b/~~0"}) {
     EXPECT_THROW(value.get<int>(path), SvarError) << path;

@@ -174,9 +174,8 @@ inline const Svar* Svar::find(detail::Text path) const {
   }
   const Svar* at = this;
   for (detail::PathReader reader(path); at != nullptr; reader.next()) {
-    const detail::Text name = reader.name();
-    if (name.empty() && !pointer) return nullptr;
-    at = at->child(name);
+    if (reader.isMalformed()) return nullptr;
+    at = at->child(reader.name());
     if (reader.isLast()) break;
   }
   return at;
