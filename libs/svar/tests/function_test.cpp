@@ -132,6 +132,8 @@ TEST(Function, TakesNativeObjectsByReference) {
   EXPECT_EQ(read(std::make_shared<const Counter>()), 0);
   EXPECT_THROW(count(std::make_shared<const Counter>(), 1), SvarError);
   EXPECT_THROW(count(3, 1), SvarError);
+  EXPECT_THROW(count(nullptr, 1), SvarError);  // a null shared_ptr, but no object
+  EXPECT_THROW(read(std::shared_ptr<Counter>()), SvarError);
   EXPECT_THROW(count(std::make_shared<int>(3), 1), SvarError);
 }
 

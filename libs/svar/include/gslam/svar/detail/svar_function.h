@@ -32,7 +32,11 @@ struct Argument<P, false> {
   using Object = typename std::remove_reference<P>::type;
   static std::string typeName() { return cppTypeName<Object>(); }
   // The function value's caller holds the argument, and so the object, until the call ends.
-  static Object& get(const Svar& value) { return *value.as<std::shared_ptr<Object>>(); }
+  static Object& get(const Svar& value) {
+    using Pointer = std::shared_ptr<Object>;
+    if (value.isNull()) SvarParts::failType(value, svarTypeName<Pointer>());
+    return *value.as<Pointer>();
+  }
 };
 
 template <class P>
