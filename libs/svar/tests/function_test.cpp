@@ -194,6 +194,17 @@ TEST(Function, IsFoundByPathAndCalled) {
   EXPECT_EQ(errorText([&] { config["math"](21); }), "expected function, found object of 1");
 }
 
+TEST(Function, MayReplaceTheValueItIsCalledFrom) {
+  const std::string text(100, 'x');
+  Svar once;
+  once = Svar::function([&once, text] {
+    once = "done";
+    return text;
+  });
+  EXPECT_EQ(once(), Svar(text));
+  EXPECT_EQ(once, "done");
+}
+
 TEST(Function, KeepsWhatItCaptures) {
   const auto counter = std::make_shared<Counter>();
   Svar f = Svar::function([counter] { return counter->count; });

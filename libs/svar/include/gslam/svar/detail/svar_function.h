@@ -158,7 +158,8 @@ inline detail::SvarFunction& Svar::asFunction() const {
 
 inline Svar Svar::apply(Span<const Svar> args) const {
   if (type_ != SvarType::function) failType("", "function");
-  return asFunction().call(args);
+  const Svar held = *this;  // the function may replace the value it is called from
+  return held.asFunction().call(args);
 }
 
 inline std::string Svar::signature() const {
