@@ -79,6 +79,15 @@ TEST(Container, MapsAreObjects) {
 #endif
 }
 
+TEST(Container, MultimapsMayNotHaveANameTwice) {
+  using Multimap = std::multimap<std::string, int>;
+  expectBothWays(Multimap{{"a", 1}, {"b", 2}}, Svar::object({{"a", 1}, {"b", 2}}));
+  EXPECT_EQ((errorText([] {
+              Svar value(Multimap{{"a", 1}, {"b", 2}, {"b", 3}});
+            })),
+            "b: expected each name once, found it twice");
+}
+
 TEST(Container, TuplesAreArraysOfTheirSize) {
   expectBothWays(std::make_pair(1, std::string("x")), Svar::array({1, "x"}));
   expectBothWays(std::pair<const std::string, int>("x", 1), Svar::array({"x", 1}));

@@ -158,12 +158,16 @@ struct SvarTraits<C, typename std::enable_if<detail::IsMap<C>::value>::type> {
   /// "object of double"
   static std::string name() { return "object of " + detail::svarTypeName<Mapped>(); }
   /// An object whose members stand in the order of the map.
+  /// @throws SvarError where a key stands there twice
   static Svar toSvar(const C& map) {
-    Svar object = Svar::object();
-    for (const auto& entry : map) {
-      detail::SvarParts::ownMembers(object).insert(entry.first, Svar(entry.second));
+    std::vector<Svar::Member> list;
+    for (const auto& entry : map) list.emplace_back(entry.first, Svar(entry.second));
+    detail::SvarParts::Members members;
+    const std::size_t repeat = members.assign(std::move(list)).second;
+    if (repeat != members.members().size()) {
+      throw SvarError(members.members()[repeat].first, "expected each name once, found it twice");
     }
-    return object;
+    return detail::SvarParts::object(std::move(members));
   }
   /// From an object.
   static C fromSvar(const Svar& value) {
