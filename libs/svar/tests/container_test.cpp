@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <list>
@@ -26,6 +27,23 @@ using gslam::Svar;
 using gslam::SvarError;
 using gslam::SvarType;
 
+// A container whose functions return something, as those of other libraries do.
+struct Chain {
+  using value_type = int;
+  int& push_back(int value) {
+    list.push_back(value);
+    return list.back();
+  }
+  bool reserve(std::size_t size) {
+    list.reserve(size);
+    return true;
+  }
+  std::vector<int>::const_iterator begin() const { return list.begin(); }
+  std::vector<int>::const_iterator end() const { return list.end(); }
+  friend bool operator==(const Chain& a, const Chain& b) { return a.list == b.list; }
+  std::vector<int> list;
+};
+
 template <class T>
 void expectBothWays(const T& container, const Svar& value) {
   EXPECT_EQ(Svar(container), value);
@@ -46,6 +64,12 @@ TEST(Container, SequencesAreArrays) {
   expectBothWays(std::vector<std::string>{"a", ""}, Svar::array({"a", ""}));
   expectBothWays(std::vector<int>(), Svar::array());
   EXPECT_EQ(value.as<std::vector<double>>(), (std::vector<double>{1, 2, 3}));
+}
+
+TEST(Container, MayBeOfAnotherLibrary) {
+  Chain chain;
+  chain.list = {4, 5};
+  expectBothWays(chain, Svar::array({4, 5}));
 }
 
 TEST(Container, OfBoolIsAnArrayOfBool) {

@@ -88,7 +88,7 @@ inline void checkSize(const Svar& value, std::size_t size) {
 
 template <class C>
 auto addElement(C& container, typename C::value_type element, int)
-    -> decltype(container.push_back(std::move(element))) {
+    -> decltype(container.push_back(std::move(element)), void()) {
   container.push_back(std::move(element));
 }
 template <class C>
@@ -98,7 +98,7 @@ auto addElement(C& container, typename C::value_type element, long)
 }
 
 template <class C>
-auto reserve(C& container, std::size_t size, int) -> decltype(container.reserve(size)) {
+auto reserve(C& container, std::size_t size, int) -> decltype(container.reserve(size), void()) {
   container.reserve(size);
 }
 template <class C>
