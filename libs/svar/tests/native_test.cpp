@@ -116,6 +116,15 @@ TEST(Native, EqualsTheSameObjectOnly) {
   EXPECT_EQ(seen.size(), 2u);
 }
 
+TEST(Native, DiffersFromItsFirstMember) {
+  struct Size {
+    int width;
+  };
+  const auto size = std::make_shared<Size>();
+  const std::shared_ptr<int> width(size, &size->width);
+  EXPECT_NE(Svar(size), Svar(width));
+}
+
 TEST(Native, GoesThroughContainers) {
   const std::vector<std::shared_ptr<Image>> images = {std::make_shared<Image>(), nullptr};
   const Svar value = images;

@@ -244,6 +244,10 @@ class SvarNative {
     return type_ == typeid(T) && (std::is_const<T>::value || !is_const_);
   }
   const std::shared_ptr<void>& object() const noexcept { return object_; }
+  // The first member of an object has its address, too.
+  bool same(const SvarNative& other) const noexcept {
+    return object_ == other.object_ && type_ == other.type_;
+  }
   std::string typeName() const {
     return (is_const_ ? "const " : "") + readableTypeName(type_.name());
   }
