@@ -154,6 +154,8 @@ TEST(Pointer, EndingInADashAppends) {
   value.set("/map/-", 5);  // a name as any other
   EXPECT_EQ(value["map"], Svar::object({{"-", 5}}));
   EXPECT_THROW(value.set("/list/-/x", 1), SvarError);
+  EXPECT_THROW(value.set("list.-", 1), SvarError);
+  EXPECT_THROW(list.set("-", 1), SvarError);
   EXPECT_THROW(value.set("/list/-", value), SvarError);  // would contain itself
   EXPECT_THROW(value.get<int>("/list/-"), SvarError);
   EXPECT_THROW(value.get<int>("/list/-", 5), SvarError);

@@ -375,7 +375,7 @@ class GSLAM_PUBLIC Svar {
   void addChild(detail::Text name, Svar value);
   static Svar wrapped(detail::PathReader rest, Svar value);
   Walk walk(detail::Text path) const;
-  static bool isBehind(Walk& end);
+  static bool isBehind(detail::Text path, const Walk& end);
   static void checkWrite(detail::Text path, const Walk& end, const Svar& value);
 
   std::string describe() const;

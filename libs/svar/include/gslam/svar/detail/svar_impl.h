@@ -257,9 +257,9 @@ inline Svar Svar::wrapped(detail::PathReader rest, Svar value) {
 }
 
 // "/-" at the end of a path: the place behind the last element of an array.
-inline bool Svar::isBehind(Walk& end) {
+inline bool Svar::isBehind(detail::Text path, const Walk& end) {
   return !end.found && end.at->type_ == SvarType::array && end.reader.isLast() &&
-         end.reader.name() == detail::Text("-", 1);
+         path.size() >= 2 && detail::Text(path.end() - 2, 2) == detail::Text("/-", 2);
 }
 
 inline void Svar::checkWrite(detail::Text path, const Walk& end, const Svar& value) {
@@ -275,7 +275,7 @@ inline void Svar::checkWrite(detail::Text path, const Walk& end, const Svar& val
 
 inline void Svar::set(detail::Text path, Svar value) & {
   Walk end = walk(path);
-  const bool behind = isBehind(end);
+  const bool behind = isBehind(path, end);
   if (!end.found && !behind && !end.at->isNull() && end.at->type_ != SvarType::object) {
     end.at->failMissing(path.str(), "cannot be set", end.reader.name(), end.reader.parent());
   }
