@@ -23,6 +23,10 @@ struct Camera {
   bool wide = false;
 };
 
+struct StereoCamera : Camera {
+  double baseline = 0.5;
+};
+
 struct Rig {
   std::map<std::string, Camera> cameras;
   std::vector<Rig> parts;  // the struct inside itself
@@ -63,6 +67,15 @@ struct SvarTraits<Camera> : SvarFields<Camera> {
     visit("fx", &Camera::fx);
     visit("k", &Camera::k);
     visit("wide", &Camera::wide);
+  }
+};
+
+template <>
+struct SvarTraits<StereoCamera> : SvarFields<StereoCamera> {
+  template <class Visit>
+  static void fields(Visit& visit) {
+    SvarTraits<Camera>::fields(visit);
+    visit("baseline", &StereoCamera::baseline);
   }
 };
 
@@ -184,6 +197,13 @@ TEST(Fields, MayBeStructsInsideContainersAndThemselves) {
               wrong.as<Rig>();
             }),
             "parts.1.cameras.right.k: expected array of double, found int 3");
+}
+
+TEST(Fields, MayBeInherited) {
+  const Svar value = StereoCamera();
+  EXPECT_EQ(value.size(), 4u);
+  EXPECT_EQ(value.members()[0].first, "fx");
+  EXPECT_EQ(Svar::object({{"fx", 7}, {"baseline", 1}}).as<StereoCamera>().fx, 7.0);
 }
 
 TEST(Fields, MayHaveAnyName) {
