@@ -11,6 +11,7 @@
 #include <set>
 #include <string>
 #include <tuple>
+#include <type_traits>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -26,6 +27,12 @@ namespace {
 using gslam::Svar;
 using gslam::SvarError;
 using gslam::SvarType;
+
+// What Svar does not know, it does not take for something else.
+static_assert(!std::is_convertible<std::map<int, int>, Svar>::value, "");
+static_assert(!std::is_convertible<std::vector<int>*, Svar>::value, "");
+static_assert(!std::is_convertible<std::vector<bool>::reference, Svar>::value, "");
+static_assert(!std::is_convertible<std::nullptr_t*, Svar>::value, "");
 
 // A container whose functions return something, as those of other libraries do.
 struct Chain {

@@ -30,6 +30,9 @@ struct Argument {
 template <class P>
 struct Argument<P, false> {
   using Object = typename std::remove_reference<P>::type;
+  static_assert(std::is_class<Object>::value && !IsText<Object>::value,
+                "Svar does not know this parameter: take text as std::string, others by reference "
+                "or by std::shared_ptr");
   static std::string typeName() { return cppTypeName<Object>(); }
   // The function value's caller holds the argument, and so the object, until the call ends.
   static Object& get(const Svar& value) {

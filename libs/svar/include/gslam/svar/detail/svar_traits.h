@@ -97,6 +97,13 @@ auto addElement(C& container, typename C::value_type element, long)
   container.insert(std::move(element));
 }
 
+template <class C, class = void>
+struct CanAdd : std::false_type {};
+template <class C>
+struct CanAdd<
+    C, Void<decltype(addElement(std::declval<C&>(), std::declval<typename C::value_type>(), 0))>>
+    : std::true_type {};
+
 template <class C>
 auto reserve(C& container, std::size_t size, int) -> decltype(container.reserve(size), void()) {
   container.reserve(size);
@@ -127,6 +134,8 @@ struct SvarTraits<C, typename std::enable_if<detail::IsSequence<C>::value>::type
   static std::string name() { return "array of " + detail::svarTypeName<Element>(); }
   /// An array.
   static Svar toSvar(const C& container) {
+    static_assert(std::is_convertible<const Element&, Svar>::value,
+                  "Svar does not know the elements of this: specialise gslam::SvarTraits");
     std::vector<Svar> elements;
     for (const auto& element : container) {
       elements.emplace_back(static_cast<const Element&>(element));
@@ -135,6 +144,7 @@ struct SvarTraits<C, typename std::enable_if<detail::IsSequence<C>::value>::type
   }
   /// From an array.
   static C fromSvar(const Svar& value) {
+    static_assert(detail::CanAdd<C>::value, "Svar can fill containers only, not views of them");
     C container;
     if (detail::readBytes(value, container, std::is_same<Element, std::uint8_t>())) {
       return container;
@@ -151,9 +161,7 @@ struct SvarTraits<C, typename std::enable_if<detail::IsSequence<C>::value>::type
 
 /// std::map, unordered_map and their like, whose keys are text.
 template <class C>
-struct SvarTraits<C, typename std::enable_if<detail::IsMap<C>::value>::type> {
-  static_assert(std::is_same<typename C::key_type, std::string>::value,
-                "Svar knows maps whose keys are std::string");
+struct SvarTraits<C, typename std::enable_if<detail::IsTextMap<C>::value>::type> {
   using Mapped = typename C::mapped_type;
   /// "object of double"
   static std::string name() { return "object of " + detail::svarTypeName<Mapped>(); }
