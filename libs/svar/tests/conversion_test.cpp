@@ -25,6 +25,10 @@ static_assert(!std::is_convertible<void*, Svar>::value, "");
 static_assert(!std::is_convertible<const int*, Svar>::value, "");
 static_assert(!std::is_convertible<char, Svar>::value, "");
 static_assert(!std::is_convertible<long double, Svar>::value, "");
+#ifdef __SIZEOF_INT128__
+__extension__ using Int128 = __int128;  // its upper half would be lost
+static_assert(!std::is_convertible<Int128, Svar>::value, "");
+#endif
 static_assert(!std::is_assignable<Svar, int>::value, "config[\"fps\"] = 30 must not compile");
 static_assert(std::is_nothrow_move_constructible<Svar>::value, "");
 static_assert(std::is_nothrow_move_assignable<Svar>::value, "");
