@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -29,6 +30,7 @@ static_assert(!std::is_convertible<long double, Svar>::value, "");
 __extension__ using Int128 = __int128;  // its upper half would be lost
 static_assert(!std::is_convertible<Int128, Svar>::value, "");
 #endif
+static_assert(!std::is_constructible<gslam::detail::Text, std::nullptr_t>::value, "");
 static_assert(!std::is_assignable<Svar, int>::value, "config[\"fps\"] = 30 must not compile");
 static_assert(std::is_nothrow_move_constructible<Svar>::value, "");
 static_assert(std::is_nothrow_move_assignable<Svar>::value, "");
