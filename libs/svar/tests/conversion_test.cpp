@@ -174,6 +174,31 @@ TEST(Conversion, TextIsNeverParsed) {
   EXPECT_THROW(Svar(30).as<std::string>(), SvarError);
 }
 
+TEST(Conversion, BinaryIsOnlyItself) {
+  const std::string bytes("a\0\xff", 3);
+  const Svar binary = Svar::binary(bytes.data(), bytes.size());
+  EXPECT_STREQ(binary.typeName(), "binary");
+  ASSERT_EQ(binary.bytes().size(), 3u);
+  EXPECT_EQ(binary.bytes()[2], 0xFF);
+  EXPECT_EQ(errorText([&] { binary.as<std::string>(); }),
+            "expected string, found binary of 3 bytes");
+  EXPECT_FALSE(binary.is<int>());
+  EXPECT_EQ(errorText([] { Svar("abc").bytes(); }), "expected binary, found string \"abc\"");
+  EXPECT_THROW(binary.size(), SvarError);
+  EXPECT_TRUE(Svar::binary(nullptr, 0).bytes().empty());
+}
+
+TEST(Conversion, RefusedOnesLeaveTheValueAsItIs) {
+  const Svar config = Svar::object({{"scale", 2.75}, {"name", "abc"}, {"on", true}});
+  const Svar before = config.clone();
+  EXPECT_THROW(config.get<int>("scale"), SvarError);
+  EXPECT_THROW(config.get<int>("scale", 1), SvarError);
+  EXPECT_THROW(config.get<int>("name"), SvarError);
+  EXPECT_THROW(config.get<int>("name", 1), SvarError);
+  EXPECT_THROW(config.get<double>("on"), SvarError);
+  EXPECT_EQ(config, before);
+}
+
 TEST(Conversion, BoolIsNoNumber) {
   EXPECT_TRUE(Svar(true).as<bool>());
   EXPECT_EQ(errorText([] { Svar(true).as<int>(); }), "expected int32, found bool true");
