@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -25,6 +26,11 @@ static_assert(!std::is_convertible<void*, Svar>::value, "");
 static_assert(!std::is_convertible<const int*, Svar>::value, "");
 static_assert(!std::is_convertible<char, Svar>::value, "");
 static_assert(!std::is_convertible<long double, Svar>::value, "");
+#ifdef __SIZEOF_INT128__
+__extension__ using Int128 = __int128;  // its upper half would be lost
+static_assert(!std::is_convertible<Int128, Svar>::value, "");
+#endif
+static_assert(!std::is_constructible<gslam::detail::Text, std::nullptr_t>::value, "");
 static_assert(!std::is_assignable<Svar, int>::value, "config[\"fps\"] = 30 must not compile");
 static_assert(std::is_nothrow_move_constructible<Svar>::value, "");
 static_assert(std::is_nothrow_move_assignable<Svar>::value, "");
@@ -166,6 +172,31 @@ TEST(Conversion, TextIsNeverParsed) {
   EXPECT_THROW(Svar("30").as<int>(), SvarError);
   EXPECT_THROW(Svar("true").as<bool>(), SvarError);
   EXPECT_THROW(Svar(30).as<std::string>(), SvarError);
+}
+
+TEST(Conversion, BinaryIsOnlyItself) {
+  const std::string bytes("a\0\xff", 3);
+  const Svar binary = Svar::binary(bytes.data(), bytes.size());
+  EXPECT_STREQ(binary.typeName(), "binary");
+  ASSERT_EQ(binary.bytes().size(), 3u);
+  EXPECT_EQ(binary.bytes()[2], 0xFF);
+  EXPECT_EQ(errorText([&] { binary.as<std::string>(); }),
+            "expected string, found binary of 3 bytes");
+  EXPECT_FALSE(binary.is<int>());
+  EXPECT_EQ(errorText([] { Svar("abc").bytes(); }), "expected binary, found string \"abc\"");
+  EXPECT_THROW(binary.size(), SvarError);
+  EXPECT_TRUE(Svar::binary(nullptr, 0).bytes().empty());
+}
+
+TEST(Conversion, RefusedOnesLeaveTheValueAsItIs) {
+  const Svar config = Svar::object({{"scale", 2.75}, {"name", "abc"}, {"on", true}});
+  const Svar before = config.clone();
+  EXPECT_THROW(config.get<int>("scale"), SvarError);
+  EXPECT_THROW(config.get<int>("scale", 1), SvarError);
+  EXPECT_THROW(config.get<int>("name"), SvarError);
+  EXPECT_THROW(config.get<int>("name", 1), SvarError);
+  EXPECT_THROW(config.get<double>("on"), SvarError);
+  EXPECT_EQ(config, before);
 }
 
 TEST(Conversion, BoolIsNoNumber) {

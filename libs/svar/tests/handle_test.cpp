@@ -50,6 +50,18 @@ TEST(Handle, CopiesOfArraysAndObjectsAreShared) {
   EXPECT_EQ(array.size(), 2u);
 }
 
+TEST(Handle, BinariesAreValuesWhoseBytesOutliveTheHandle) {
+  std::string bytes(100, 'x');
+  Svar binary = Svar::binary(bytes.data(), bytes.size());
+  bytes.assign(100, 'y');
+  const Svar copy = binary;
+  binary = nullptr;
+  EXPECT_EQ(copy.bytes()[99], 'x');
+  EXPECT_EQ(copy, Svar::binary(std::string(100, 'x').data(), 100));
+  EXPECT_EQ(copy.hash(), copy.clone().hash());
+  EXPECT_NE(copy, Svar(std::string(100, 'x')));
+}
+
 TEST(Handle, NullSharesNothing) {
   Svar a;
   Svar b = a;

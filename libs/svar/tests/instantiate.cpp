@@ -2,14 +2,50 @@
 // tests/headers.
 #include <gslam/svar.h>
 
+#include <array>
 #include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
 #include <string>
+#include <tuple>
+#include <unordered_set>
+#include <utility>
+#include <vector>
 
 #if __cplusplus >= 201703L
+#include <optional>
 #include <string_view>
 #endif
 
 using gslam::Svar;
+
+namespace {
+
+struct Camera {
+  double fx = 1;
+  std::vector<float> k;
+};
+
+struct Native {
+  double sum = 0;
+};
+
+}  // namespace
+
+namespace gslam {
+
+template <>
+struct SvarTraits<Camera> : SvarFields<Camera> {
+  template <class Visit>
+  static void fields(Visit& visit) {
+    visit("fx", &Camera::fx);
+    visit("k", &Camera::k);
+  }
+};
+
+}  // namespace gslam
 
 template <class T>
 static bool throughAll(Svar& root, const T& value) {
@@ -21,6 +57,52 @@ static bool throughAll(Svar& root, const T& value) {
 template <class I>
 static bool byIndex(const Svar& list) {
   return list[I(0)] == list[0];
+}
+
+static int twice(int x) {
+  return 2 * x;
+}
+
+static bool callAll(const std::string& text) {
+  const auto native = std::make_shared<Native>();
+  const Svar length =
+      Svar::function([](const std::string& s, std::size_t n) { return s.size() + n; });
+  const Svar change = Svar::function([](Native& n, const Camera& by) { n.sum += by.fx; });
+  const Svar count = Svar::function([](gslam::Span<const Svar> args) { return args.size(); });
+  std::string own = text;
+  const Svar next = Svar::function([own]() mutable -> std::string& { return own += "x"; });
+  const std::function<Svar(std::vector<double> &&)> front = [](std::vector<double>&& list) {
+    return Svar(list.empty() ? 0.0 : list.front());
+  };
+  change(native, Camera());
+  return length(text, 1).is<int>() && count(1, 2.0, "three").as<int>() == 3 &&
+         next().is<std::string>() && Svar::function(front)(std::vector<int>{1}).is<double>() &&
+         Svar::function(twice).apply(std::vector<Svar>{2}) == 4 && !change.signature().empty() &&
+         Svar(native).as<std::shared_ptr<const Native>>()->sum > 0;
+}
+
+static bool convertAll(Svar& root, const std::string& text) {
+  root.set("map", std::map<std::string, std::set<int>>{{text, {1, 2}}});
+  root.set("tuple", std::make_tuple(1, text, std::array<float, 2>{{1, 2}}));
+  root.set("bytes", Svar::binary(text.data(), text.size()));
+  root.set("camera", Camera());
+  bool good =
+      root.get<std::map<std::string, std::vector<double>>>("map").size() == 1 &&
+      std::get<1>(root.get<std::tuple<short, std::string, std::vector<int>>>("tuple")) == text &&
+      root.get<std::vector<std::uint8_t>>("bytes").size() == text.size() &&
+      root.get<Camera>("camera").k.empty() && root.get<Camera>("none", Camera()).fx > 0;
+#if __cplusplus >= 201703L
+  root.set("/optional", std::optional<int>(3));
+  good = good && root.get<std::optional<int>>("optional") == 3;
+#endif
+  root.erase("bytes");
+  return good;
+}
+
+static bool compareAll(const Svar& a, const Svar& b) {
+  const std::unordered_set<Svar> seen = {a, b, a.frozen()};
+  return a.patched(a.diff(b)) == b && a.merged(b).hash() == b.hash() && seen.size() <= 2 &&
+         a.frozen().isFrozen() && gslam::parseJson(gslam::printJson(a, 2)) == a;
 }
 
 bool instantiateSvar(const std::string& text);
@@ -47,5 +129,6 @@ bool instantiateSvar(const std::string& text) {
   Svar copy = root.clone();
   copy.push_back(1);
   copy.swap(root);
+  good = good && callAll(text) && convertAll(copy, text) && compareAll(copy, root);
   return good && root != copy && root.erase("list.0") && root.type() == gslam::SvarType::object;
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 
 #include "error_text.h"
@@ -19,6 +20,20 @@ struct Case {
   Svar value;
   std::string text;
 };
+
+TEST(JsonPrint, RefusesWhatJsonHasNoWordFor) {
+  const auto text = [](const Svar& value) {
+    return errorText([&] { printJson(Svar::object({{"a", Svar::array({1, value})}})); });
+  };
+  EXPECT_EQ(text(Svar::function([](int) {})),
+            "a.1: cannot be printed as JSON: expected a value that JSON has, found function "
+            "void(int32)");
+  EXPECT_EQ(text(std::make_shared<int>(3)),
+            "a.1: cannot be printed as JSON: expected a value that JSON has, found native int");
+  EXPECT_EQ(text(Svar::binary("abc", 3)),
+            "a.1: cannot be printed as JSON: expected a value that JSON has, found binary of 3 "
+            "bytes");
+}
 
 TEST(JsonPrint, Compact) {
   const Case cases[] = {

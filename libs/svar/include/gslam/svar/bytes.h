@@ -41,11 +41,10 @@ inline std::uint64_t shortWord(const char* p, std::size_t size) noexcept {
 }
 
 inline std::uint64_t hashBytes(const char* p, std::size_t size, std::uint64_t seed) noexcept {
-  std::uint64_t hash = seed ^ size * 0x9E3779B97F4A7C15u;
+  std::uint64_t hash = seed ^ size * 0xBF58476D1CE4E5B9u;  // mixWords() multiplies by another
   std::size_t left = size;
   for (; left > 8; p += 8, left -= 8) {
-    hash = (hash ^ loadWord<std::uint64_t>(p)) * 0xBF58476D1CE4E5B9u;
-    hash ^= hash >> 32;
+    hash = mixWords(hash, loadWord<std::uint64_t>(p));
   }
   return mixWords(hash, shortWord(p, left));
 }

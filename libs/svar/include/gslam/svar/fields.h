@@ -17,8 +17,8 @@ template <class T>
 class FieldWriter {
  public:
   explicit FieldWriter(const T& from) : from_(from) {}
-  template <class Field>
-  void operator()(const char* name, Field T::*field) {
+  template <class Field, class Owner>  // T or one of its base classes
+  void operator()(const char* name, Field Owner::*field) {
     object_.set("/" + escapeName(name), from_.*field);
   }
   Svar object() const { return object_; }
@@ -32,8 +32,8 @@ template <class T>
 class FieldReader {
  public:
   FieldReader(const Svar& object, T& into) : object_(object), into_(into) {}
-  template <class Field>
-  void operator()(const char* name, Field T::*field) {
+  template <class Field, class Owner>  // T or one of its base classes
+  void operator()(const char* name, Field Owner::*field) {
     names_ += (names_.empty() ? "" : ", ") + std::string(name);
     const Svar* const member = SvarParts::member(object_, name);
     if (member == nullptr) return;

@@ -18,10 +18,11 @@ namespace detail {
 template <bool condition>
 using EnableIf = typename std::enable_if<condition, int>::type;
 
-// The integers that are numbers: neither bool nor the character types. signed and unsigned char
-// are numbers, for they are int8_t and uint8_t.
+// The integers that are numbers: neither bool nor the character types, nor those of 128 bits that
+// some compilers have. signed and unsigned char are numbers, for they are int8_t and uint8_t.
 template <class T>
-struct IsInteger : std::integral_constant<bool, std::is_integral<T>::value> {};
+struct IsInteger : std::integral_constant<bool, std::is_integral<T>::value &&
+                                                    sizeof(T) <= sizeof(std::int64_t)> {};
 template <>
 struct IsInteger<bool> : std::false_type {};
 template <>

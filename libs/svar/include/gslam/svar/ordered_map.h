@@ -43,11 +43,11 @@ class OrderedMap {
     return index != members_.size() ? &members_[index].second : nullptr;
   }
 
-  /// The name must be new.
+  /// The name must be new; it may be part of a name in this map.
   Value& insert(Text name, Value value) {
     reserveSlot();
-    members_.emplace_back(name.str(), std::move(value));
-    if (!slots_.empty()) addSlot(members_.size() - 1, hashOf(name));
+    members_.emplace_back(name.str(), std::move(value));  // what `name` views may move now
+    if (!slots_.empty()) addSlot(members_.size() - 1, hashOf(members_.back().first));
     return members_.back().second;
   }
 

@@ -39,14 +39,17 @@ class PathReader {
       const bool nothing_after = p + 1 == path_.end() || p[1] == separator_;
       if (*p == separator_ && (p == path_.begin() || nothing_after)) failEmptyName();
     }
-    for (const char* p = path_.begin(); p != path_.end() && separator_ == '/'; ++p) {
-      if (*p == '~' && (p + 1 == path_.end() || (p[1] != '0' && p[1] != '1'))) {
-        throw SvarError(path_.str(), "expected ~0 or ~1, as which / and ~ are written in a path");
-      }
+    if (separator_ == '/' && hasBadEscape(path_.begin(), path_.end())) {
+      throw SvarError(path_.str(), "expected ~0 or ~1, as which ~ and / are written in a path");
     }
   }
 
-  /// The current name; valid until next().
+  /// Whether check() would refuse the current name.
+  bool isMalformed() const noexcept {
+    return begin_ == end_ ? !pointer_ : separator_ == '/' && hasBadEscape(begin_, end_);
+  }
+
+  /// The current name, which must not be malformed; valid until next().
   Text name() {
     const Text raw(begin_, static_cast<std::size_t>(end_ - begin_));
     if (separator_ == '.' || raw.empty() || std::memchr(begin_, '~', raw.size()) == nullptr) {
@@ -54,8 +57,7 @@ class PathReader {
     }
     unescaped_.clear();
     for (const char* p = begin_; p != end_; ++p) {
-      const bool escape = *p == '~' && p + 1 != end_;
-      unescaped_.push_back(escape ? (*++p == '1' ? '/' : '~') : *p);
+      unescaped_.push_back(*p != '~' ? *p : *++p == '1' ? '/' : '~');
     }
     return unescaped_;
   }
@@ -74,6 +76,12 @@ class PathReader {
   }
 
  private:
+  static bool hasBadEscape(const char* p, const char* end) noexcept {
+    for (; p != end; ++p) {
+      if (*p == '~' && (p + 1 == end || (p[1] != '0' && p[1] != '1'))) return true;
+    }
+    return false;
+  }
   const char* nextSeparator() const noexcept {
     const char* p = begin_;
     while (p != path_.end() && *p != separator_) ++p;

@@ -383,9 +383,10 @@ class GSLAM_PUBLIC Svar {
   const Svar* find(detail::Text path) const;
   Svar* child(detail::Text name) const;
   bool mayHave(detail::Text name) const;
-  Svar& makeChild(detail::Text name);
+  void addChild(detail::Text name, Svar value);
+  static Svar wrapped(detail::PathReader rest, Svar value);
   Walk walk(detail::Text path) const;
-  static bool isBehind(Walk& end);
+  static bool isBehind(detail::Text path, const Walk& end);
   static void checkWrite(detail::Text path, const Walk& end, const Svar& value);
 
   std::string describe() const;

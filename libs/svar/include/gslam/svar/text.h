@@ -25,6 +25,9 @@ class Text {
   Text(const char* text)  // NOLINT(google-explicit-constructor)
       : data_(text), size_(text != nullptr ? std::strlen(text) : refuse()) {}
 
+  /// Not from nullptr, nor from the literal 0, which could be meant for an index.
+  Text(std::nullptr_t) = delete;  // NOLINT(google-explicit-constructor)
+
   Text(const char* data, std::size_t size) noexcept : data_(data), size_(size) {}
 
   template <class S, class = typename std::enable_if<std::is_convertible<

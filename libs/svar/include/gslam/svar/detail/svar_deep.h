@@ -160,7 +160,7 @@ inline bool Svar::equals(const Svar& other) const {
 
 inline bool Svar::same(const Svar& a, const Svar& b) {
   if (a.type_ != SvarType::native) return a.data_ == b.data_;
-  return a.asNative().object() == b.asNative().object();
+  return a.asNative().same(b.asNative());
 }
 
 // All but the parts of arrays and objects, which are left to do.

@@ -31,9 +31,16 @@ struct Argument {
 template <class P>
 struct Argument<P, false> {
   using Object = typename std::remove_reference<P>::type;
+  static_assert(std::is_class<Object>::value && !IsText<Object>::value,
+                "Svar does not know this parameter: take text as std::string, others by reference "
+                "or by std::shared_ptr");
   static std::string typeName() { return cppTypeName<Object>(); }
   // The function value's caller holds the argument, and so the object, until the call ends.
-  static Object& get(const Svar& value) { return *value.as<std::shared_ptr<Object>>(); }
+  static Object& get(const Svar& value) {
+    using Pointer = std::shared_ptr<Object>;
+    if (value.isNull()) SvarParts::failType(value, svarTypeName<Pointer>());
+    return *value.as<Pointer>();
+  }
 };
 
 template <class P>
@@ -155,7 +162,8 @@ inline detail::SvarFunction& Svar::asFunction() const {
 
 inline Svar Svar::apply(Span<const Svar> args) const {
   if (type_ != SvarType::function) failType("", "function");
-  return asFunction().call(args);
+  const Svar held = *this;  // the function may replace the value it is called from
+  return held.asFunction().call(args);
 }
 
 inline std::string Svar::signature() const {

@@ -175,9 +175,8 @@ inline const Svar* Svar::find(detail::Text path) const {
   }
   const Svar* at = this;
   for (detail::PathReader reader(path); at != nullptr; reader.next()) {
-    const detail::Text name = reader.name();
-    if (name.empty() && !pointer) return nullptr;
-    at = at->child(name);
+    if (reader.isMalformed()) return nullptr;
+    at = at->child(reader.name());
     if (reader.isLast()) break;
   }
   return at;
@@ -234,15 +233,34 @@ void Svar::failMissing(detail::Text path, Walk end) {
 
 // --- writing
 
-inline Svar& Svar::makeChild(detail::Text name) {
-  if (isNull()) *this = object();
-  return asObject().insert(name, Svar());
+inline void Svar::addChild(detail::Text name, Svar value) {
+  if (!isNull()) {
+    asObject().insert(name, std::move(value));
+    return;
+  }
+  Svar made = object();
+  made.asObject().insert(name, std::move(value));
+  swap(made);
+}
+
+// Puts the objects that the rest of the path names around a value.
+inline Svar Svar::wrapped(detail::PathReader rest, Svar value) {
+  if (rest.isLast()) return value;
+  Svar outermost;
+  Svar* place = &outermost;
+  while (!rest.isLast()) {
+    rest.next();
+    place->addChild(rest.name(), Svar());
+    place = &place->asObject().members().back().second;
+  }
+  *place = std::move(value);
+  return outermost;
 }
 
 // "/-" at the end of a path: the place behind the last element of an array.
-inline bool Svar::isBehind(Walk& end) {
+inline bool Svar::isBehind(detail::Text path, const Walk& end) {
   return !end.found && end.at->type_ == SvarType::array && end.reader.isLast() &&
-         end.reader.name() == detail::Text("-", 1);
+         path.size() >= 2 && detail::Text(path.end() - 2, 2) == detail::Text("/-", 2);
 }
 
 inline void Svar::checkWrite(detail::Text path, const Walk& end, const Svar& value) {
@@ -258,19 +276,19 @@ inline void Svar::checkWrite(detail::Text path, const Walk& end, const Svar& val
 
 inline void Svar::set(detail::Text path, Svar value) & {
   Walk end = walk(path);
-  const bool behind = isBehind(end);
+  const bool behind = isBehind(path, end);
   if (!end.found && !behind && !end.at->isNull() && end.at->type_ != SvarType::object) {
     end.at->failMissing(path.str(), "cannot be set", end.reader.name(), end.reader.parent());
   }
   checkWrite(path, end, value);
   if (behind) return end.at->asArray().push_back(std::move(value));
-  Svar* place = const_cast<Svar*>(end.at);  // it is inside of this, which is not const
-  while (!end.found) {
-    place = &place->makeChild(end.reader.name());
-    end.found = end.reader.isLast();
-    if (!end.found) end.reader.next();
+  Svar* const place = const_cast<Svar*>(end.at);  // it is inside of this, which is not const
+  if (end.found) {
+    *place = std::move(value);
+  } else {
+    // The last step, for it may move what the path views: a name in this object.
+    place->addChild(end.reader.name(), wrapped(end.reader, std::move(value)));
   }
-  *place = std::move(value);
 }
 
 inline void Svar::push_back(Svar value) & {

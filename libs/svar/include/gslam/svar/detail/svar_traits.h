@@ -89,7 +89,7 @@ inline void checkSize(const Svar& value, std::size_t size) {
 
 template <class C>
 auto addElement(C& container, typename C::value_type element, int)
-    -> decltype(container.push_back(std::move(element))) {
+    -> decltype(container.push_back(std::move(element)), void()) {
   container.push_back(std::move(element));
 }
 template <class C>
@@ -98,8 +98,15 @@ auto addElement(C& container, typename C::value_type element, long)
   container.insert(std::move(element));
 }
 
+template <class C, class = void>
+struct CanAdd : std::false_type {};
 template <class C>
-auto reserve(C& container, std::size_t size, int) -> decltype(container.reserve(size)) {
+struct CanAdd<
+    C, Void<decltype(addElement(std::declval<C&>(), std::declval<typename C::value_type>(), 0))>>
+    : std::true_type {};
+
+template <class C>
+auto reserve(C& container, std::size_t size, int) -> decltype(container.reserve(size), void()) {
   container.reserve(size);
 }
 template <class C>
@@ -128,6 +135,8 @@ struct SvarTraits<C, typename std::enable_if<detail::IsSequence<C>::value>::type
   static std::string name() { return "array of " + detail::svarTypeName<Element>(); }
   /// An array.
   static Svar toSvar(const C& container) {
+    static_assert(std::is_convertible<const Element&, Svar>::value,
+                  "Svar does not know the elements of this: specialise gslam::SvarTraits");
     std::vector<Svar> elements;
     for (const auto& element : container) {
       elements.emplace_back(static_cast<const Element&>(element));
@@ -136,6 +145,7 @@ struct SvarTraits<C, typename std::enable_if<detail::IsSequence<C>::value>::type
   }
   /// From an array.
   static C fromSvar(const Svar& value) {
+    static_assert(detail::CanAdd<C>::value, "Svar can fill containers only, not views of them");
     C container;
     if (detail::readBytes(value, container, std::is_same<Element, std::uint8_t>())) {
       return container;
@@ -152,19 +162,21 @@ struct SvarTraits<C, typename std::enable_if<detail::IsSequence<C>::value>::type
 
 /// std::map, unordered_map and their like, whose keys are text.
 template <class C>
-struct SvarTraits<C, typename std::enable_if<detail::IsMap<C>::value>::type> {
-  static_assert(std::is_same<typename C::key_type, std::string>::value,
-                "Svar knows maps whose keys are std::string");
+struct SvarTraits<C, typename std::enable_if<detail::IsTextMap<C>::value>::type> {
   using Mapped = typename C::mapped_type;
   /// "object of double"
   static std::string name() { return "object of " + detail::svarTypeName<Mapped>(); }
   /// An object whose members stand in the order of the map.
+  /// @throws SvarError where a key stands there twice
   static Svar toSvar(const C& map) {
-    Svar object = Svar::object();
-    for (const auto& entry : map) {
-      detail::SvarParts::ownMembers(object).insert(entry.first, Svar(entry.second));
+    std::vector<Svar::Member> list;
+    for (const auto& entry : map) list.emplace_back(entry.first, Svar(entry.second));
+    detail::SvarParts::Members members;
+    const std::size_t repeat = members.assign(std::move(list)).second;
+    if (repeat != members.members().size()) {
+      throw SvarError(members.members()[repeat].first, "expected each name once, found it twice");
     }
-    return object;
+    return detail::SvarParts::object(std::move(members));
   }
   /// From an object.
   static C fromSvar(const Svar& value) {
@@ -241,6 +253,10 @@ class SvarNative {
     return type_ == typeid(T) && (std::is_const<T>::value || !is_const_);
   }
   const std::shared_ptr<void>& object() const noexcept { return object_; }
+  // The first member of an object has its address, too.
+  bool same(const SvarNative& other) const noexcept {
+    return object_ == other.object_ && type_ == other.type_;
+  }
   std::string typeName() const {
     return (is_const_ ? "const " : "") + readableTypeName(type_.name());
   }

@@ -75,6 +75,12 @@ struct IsTuple : std::false_type {};
 template <class T>
 struct IsTuple<T, Void<decltype(std::tuple_size<T>::value)>> : std::true_type {};
 
+/// A map whose keys are std::string. Others are neither maps nor sequences to Svar.
+template <class T, bool = IsMap<T>::value>
+struct IsTextMap : std::false_type {};
+template <class T>
+struct IsTextMap<T, true> : std::is_same<typename T::key_type, std::string> {};
+
 /// Elements of one type, of which there may be any number.
 template <class T>
 struct IsSequence : std::integral_constant<bool, HasElements<T>::value && !IsMap<T>::value &&
