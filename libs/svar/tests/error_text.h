@@ -6,11 +6,12 @@
 
 #include <string>
 
-template <class F>
+/// @tparam E  the only type of error that is expected; another one goes on
+template <class E = gslam::SvarError, class F>
 std::string errorText(F call) {
   try {
     call();
-  } catch (const gslam::SvarError& error) {
+  } catch (const E& error) {
     return error.what();
   }
   return "(no error)";

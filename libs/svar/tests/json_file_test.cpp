@@ -5,10 +5,13 @@
 #include <cstdio>
 #include <string>
 
+#include "error_text.h"
+
 namespace {
 
 using gslam::FileError;
 using gslam::loadJson;
+using gslam::ParseError;
 using gslam::saveJson;
 using gslam::Svar;
 
@@ -36,16 +39,6 @@ class TestFile {
   std::string path_;
 };
 
-template <class F>
-std::string errorOf(F call) {
-  try {
-    call();
-  } catch (const gslam::Error& error) {
-    return error.what();
-  }
-  return "(no error)";
-}
-
 TEST(JsonFile, IsLoaded) {
   const TestFile file("loaded.json");
   file.write("{\n  \"fps\": 30, // frames a second\n  \"k\": [535.4, 1]\n}\n");
@@ -53,7 +46,7 @@ TEST(JsonFile, IsLoaded) {
   options.comments = true;
   EXPECT_EQ(loadJson(file.path(), options),
             Svar::object({{"fps", 30}, {"k", Svar::array({535.4, 1})}}));
-  EXPECT_EQ(errorOf([&] { loadJson(file.path()); }),
+  EXPECT_EQ(errorText<ParseError>([&] { loadJson(file.path()); }),
             file.path() +
                 ":2:14: expected a name in quotes, found '/' (comments are accepted on "
                 "request only)");
@@ -70,17 +63,18 @@ TEST(JsonFile, MayBeLong) {
 TEST(JsonFile, ThatCannotBeReadIsAnError) {
   const TestFile file("missing.json");
   EXPECT_THROW(loadJson(file.path()), FileError);
-  EXPECT_EQ(errorOf([&] { loadJson(file.path()); }),
+  EXPECT_EQ(errorText<FileError>([&] { loadJson(file.path()); }),
             file.path() + ": cannot be opened: No such file or directory");
   const std::string folder = testing::TempDir();
   EXPECT_THROW(loadJson(folder), FileError);
-  EXPECT_NE(errorOf([&] { loadJson(folder); }).find("Is a directory"), std::string::npos);
+  EXPECT_NE(errorText<FileError>([&] { loadJson(folder); }).find("Is a directory"),
+            std::string::npos);
 }
 
 TEST(JsonFile, ThatIsEmptyIsAnError) {
   const TestFile file("empty.json");
   file.write("");
-  EXPECT_EQ(errorOf([&] { loadJson(file.path()); }),
+  EXPECT_EQ(errorText<ParseError>([&] { loadJson(file.path()); }),
             file.path() + ":1:1: the text is empty, expected a value");
 }
 
@@ -105,7 +99,7 @@ TEST(JsonFile, StaysWhereSavingFails) {
 TEST(JsonFile, ThatCannotBeWrittenIsAnError) {
   const std::string path = testing::TempDir() + "no_such_folder_of_gslam/a.json";
   EXPECT_THROW(saveJson(path, 1), FileError);
-  EXPECT_EQ(errorOf([&] { saveJson(path, 1); }),
+  EXPECT_EQ(errorText<FileError>([&] { saveJson(path, 1); }),
             path + ": cannot be written: No such file or directory");
 }
 

@@ -39,6 +39,9 @@ void check(const Case (&cases)[count], const gslam::JsonOptions& options = gslam
   for (const Case& one : cases) {
     SCOPED_TRACE(one.name);
     EXPECT_EQ(errorOf(one.text, options), one.error);
+    // What ends late is read faster.
+    if (one.error.find("the text") != std::string::npos) continue;
+    EXPECT_EQ(errorOf(one.text + std::string(32, ' '), options), one.error);
   }
 }
 

@@ -192,7 +192,7 @@ TEST(Watch, OutlivesTheTree) {
     watch = tree.watch("y", [](const Svar&) {});
   }
   watch.reset();
-  EXPECT_THROW(SharedSvar().watch("a..b", [](const Svar&) {}), SvarError);
+  EXPECT_THROW(watch = SharedSvar().watch("a..b", [](const Svar&) {}), SvarError);
 }
 
 // --- many threads

@@ -42,7 +42,7 @@ class JsonLexer {
 
   /// Spaces, line ends and, where they are accepted, comments.
   void skipSpace() {
-    while (at_ != end_ && (*at_ == ' ' || *at_ == '\n' || *at_ == '\r' || *at_ == '\t')) ++at_;
+    while (at_ != end_ && isSpace(*at_)) ++at_;
     if (comments_ && at_ != end_ && *at_ == '/') skipComments();
   }
 
@@ -57,21 +57,18 @@ class JsonLexer {
 
   /// Goes past a string, from the quote at which it begins, and checks all of it.
   JsonString skipString() {
-    const char* const quote = at_;
-    const char* p = quote + 1;
-    JsonString string = {p, p, false};
-    for (;;) {
-      p = skipPlain(p, end_);
+    const char* const begin = at_ + 1;
+    bool has_escapes = false;
+    const char* p = skipPlain(begin, end_);
+    while (p == end_ || *p != '"') {
       if (p == end_) {
-        fail(quote, "expected '\"' at the end of this string, found the end of the text");
+        fail(at_, "expected '\"' at the end of this string, found the end of the text");
       }
-      if (*p == '"') break;
-      string.has_escapes = string.has_escapes || *p == '\\';
-      p = *p == '\\' ? pastEscape(p) : pastUtf8(p);
+      has_escapes = has_escapes || *p == '\\';
+      p = skipPlain(*p == '\\' ? pastEscape(p) : pastUtf8(p), end_);
     }
-    string.end = p;
     at_ = p + 1;
-    return string;
+    return {begin, p, has_escapes};
   }
 
   /// Line and column, both from 1.
@@ -137,7 +134,7 @@ class JsonLexer {
       } else {
         failExpected(at_ + 1, "\"//\" or \"/*\"");
       }
-      while (at_ != end_ && (*at_ == ' ' || *at_ == '\n' || *at_ == '\r' || *at_ == '\t')) ++at_;
+      while (at_ != end_ && isSpace(*at_)) ++at_;
     }
   }
 

@@ -8,8 +8,10 @@
 #include <gslam/svar/json.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -17,13 +19,51 @@ namespace gslam {
 inline namespace v1 {
 namespace detail {
 
-/// Reads one text. Finished values lie on a stack; where an array or object ends, its parts are
-/// moved from there into a vector of just their number. Nothing recurses.
+/// What was read and has no place yet; costs less to keep than a Svar. The type says all of null;
+/// of a string, array or object it says that the next one comes here.
+struct JsonPart {
+  explicit JsonPart(SvarType of) noexcept : type(of), integer(0) {}
+  explicit JsonPart(bool value) noexcept : type(SvarType::boolean), integer(value ? 1 : 0) {}
+  explicit JsonPart(std::int64_t value) noexcept : type(SvarType::integer), integer(value) {}
+  explicit JsonPart(double value) noexcept : type(SvarType::real), real(value) {}
+
+  SvarType type;
+  union {
+    std::int64_t integer;  // also bool, as 0 or 1
+    double real;
+  };
+};
+
+/// Goes through parts that are doubles: a vector takes a range of them faster than one by one.
+class JsonReals {
+ public:
+  using iterator_category = std::forward_iterator_tag;
+  using value_type = double;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const double*;
+  using reference = const double&;
+
+  explicit JsonReals(const JsonPart* part) noexcept : part_(part) {}
+  reference operator*() const noexcept { return part_->real; }
+  JsonReals& operator++() noexcept {
+    ++part_;
+    return *this;
+  }
+  JsonReals operator++(int) noexcept { return JsonReals(part_++); }
+  friend bool operator==(JsonReals a, JsonReals b) noexcept { return a.part_ == b.part_; }
+  friend bool operator!=(JsonReals a, JsonReals b) noexcept { return a.part_ != b.part_; }
+
+ private:
+  const JsonPart* part_;
+};
+
+/// Reads one text. What was read lies on a stack; where an array or object ends, a vector of just
+/// their number is made of its parts. Nothing recurses.
 class JsonReader {
  public:
   JsonReader(Text text, const std::string& source, const JsonOptions& options)
       : lexer_(text, source, options.comments), options_(options) {
-    values_.reserve(32);
+    parts_.reserve(32);
   }
 
   Svar read() {
@@ -40,15 +80,22 @@ class JsonReader {
     }
     lexer_.skipSpace();
     if (!lexer_.isAtEnd()) lexer_.failExpected(lexer_.at(), "the end of the text");
-    return std::move(values_.back());
+    const Open all(nullptr, false, 0, 0, 0);
+    Cursor cursor = partsOf(all);
+    return take(cursor);
   }
 
  private:
   // An array or object whose end was not read yet.
   struct Open {
+    Open(const char* place, bool object, std::size_t part, std::size_t made, std::size_t name)
+        : at(place), is_object(object), first_part(part), first_made(made), first_name(name) {}
+
     const char* at;
-    std::size_t first_value;  // index of its first value on the stack
     bool is_object;
+    std::size_t first_part;  // where its parts begin, and its
+    std::size_t first_made;  // those of them that are more than numbers and words, and its
+    std::size_t first_name;  // names
   };
 
   // A value, or the beginning of one: goes on to the first scalar or empty array or object inside.
@@ -56,7 +103,7 @@ class JsonReader {
     for (;;) {
       switch (lexer_.peek()) {
         case '[':
-          if (!openArray()) return;
+          if (!openArray() || readShortNumbers()) return;
           expected = "a value or ']'";
           break;
         case '{':
@@ -74,22 +121,23 @@ class JsonReader {
   void readString() {
     const JsonString string = lexer_.skipString();
     if (string.has_escapes) {
-      values_.emplace_back(decodeEscapes(string));
+      made_.emplace_back(decodeEscapes(string));
     } else {
-      values_.push_back(SvarParts::string(Text(string.begin, string.size())));
+      made_.push_back(SvarParts::string(Text(string.begin, string.size())));
     }
+    parts_.emplace_back(SvarType::string);
   }
 
   void readNumberOrWord(const char* expected) {
     const char c = lexer_.peek();
     if (isNumberNext()) {
-      readNumber();
+      readNumber(parseNumber(lexer_.at(), lexer_.end()));
     } else if (c == 't' && lexer_.skipWord("true")) {
-      values_.emplace_back(true);
+      parts_.emplace_back(true);
     } else if (c == 'f' && lexer_.skipWord("false")) {
-      values_.emplace_back(false);
+      parts_.emplace_back(false);
     } else if (c == 'n' && lexer_.skipWord("null")) {
-      values_.emplace_back();
+      parts_.emplace_back(SvarType::null);
     } else {
       lexer_.failExpected(lexer_.at(), expected);
     }
@@ -102,7 +150,7 @@ class JsonReader {
       lexer_.fail(lexer_.at(), "expected at most " + std::to_string(options_.max_depth) +
                                    " arrays and objects inside one another, found one more");
     }
-    open_.push_back({lexer_.at(), values_.size(), is_object});
+    open_.emplace_back(lexer_.at(), is_object, parts_.size(), made_.size(), names_.size());
     lexer_.moveTo(lexer_.at() + 1);
     lexer_.skipSpace();
   }
@@ -127,8 +175,10 @@ class JsonReader {
   void continueArray() {
     while (lexer_.skip(',')) {
       lexer_.skipSpace();
-      if (!isNumberNext()) return readValue("a value");
-      readNumber();
+      if (!readShortNumbers()) {
+        if (!isNumberNext()) return readValue("a value");
+        readNumber(parseAnyNumber(lexer_.at(), lexer_.end()));
+      }
       lexer_.skipSpace();
     }
     if (lexer_.skip(']')) {
@@ -165,34 +215,90 @@ class JsonReader {
                                  lexer_.placeName(open_.back().at));
   }
 
+  // Goes through the parts of the innermost array or object.
+  struct Cursor {
+    const JsonPart* part;
+    const JsonPart* end;
+    Svar* made;
+    const JsonString* name;
+  };
+
+  Cursor partsOf(const Open& open) noexcept {
+    return {parts_.data() + open.first_part, parts_.data() + parts_.size(),
+            made_.data() + open.first_made, names_.data() + open.first_name};
+  }
+
   void closeArray() {
-    const auto first = values_.begin() + static_cast<std::ptrdiff_t>(open_.back().first_value);
-    open_.pop_back();
-    std::vector<Svar> elements(std::make_move_iterator(first),
-                               std::make_move_iterator(values_.end()));
-    values_.erase(first, values_.end());
-    values_.push_back(SvarParts::array(std::move(elements)));
+    const Open open = open_.back();
+    Cursor cursor = partsOf(open);
+    std::vector<Svar> elements;
+    elements.reserve(static_cast<std::size_t>(cursor.end - cursor.part));
+    while (cursor.part != cursor.end) {
+      if (cursor.part->type == SvarType::real) {
+        const JsonPart* const first = cursor.part;
+        cursor.part = pastReals(cursor);
+        elements.insert(elements.end(), JsonReals(first), JsonReals(cursor.part));
+      } else {
+        elements.push_back(take(cursor));
+      }
+    }
+    close(open, SvarParts::array(std::move(elements)));
+  }
+
+  static const JsonPart* pastReals(const Cursor& cursor) noexcept {
+    const JsonPart* part = cursor.part;
+    while (part != cursor.end && part->type == SvarType::real) ++part;
+    return part;
   }
 
   void closeObject() {
-    const std::size_t first_value = open_.back().first_value;
-    const std::size_t count = values_.size() - first_value;
-    const std::size_t first_name = names_.size() - count;
+    const Open open = open_.back();
+    Cursor cursor = partsOf(open);
+    const std::size_t count = static_cast<std::size_t>(cursor.end - cursor.part);
     std::vector<Svar::Member> members;
     members.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const JsonString& name = names_[first_name + i];
-      members.emplace_back(
-          name.has_escapes ? decodeEscapes(name) : std::string(name.begin, name.size()),
-          std::move(values_[first_value + i]));
+    while (cursor.part != cursor.end) {
+      const JsonString& name = *cursor.name++;
+      if (name.has_escapes) {
+        members.emplace_back(decodeEscapes(name), take(cursor));
+      } else {
+        members.emplace_back(std::piecewise_construct,
+                             std::forward_as_tuple(name.begin, name.size()),
+                             std::forward_as_tuple(take(cursor)));
+      }
     }
     OrderedMap<Svar> map;
     const OrderedMap<Svar>::Repeat repeat = map.assign(std::move(members));
-    if (repeat.first != count) resolveRepeat(map, repeat, first_name);
+    if (repeat.first != count) resolveRepeat(map, repeat, open.first_name);
+    close(open, SvarParts::object(std::move(map)));
+  }
+
+  // Puts an array or object in the place of its parts.
+  void close(const Open& open, Svar value) {
+    parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(open.first_part), parts_.end());
+    names_.erase(names_.begin() + static_cast<std::ptrdiff_t>(open.first_name), names_.end());
+    made_.erase(made_.begin() + static_cast<std::ptrdiff_t>(open.first_made), made_.end());
+    parts_.emplace_back(value.type());
+    made_.push_back(std::move(value));
     open_.pop_back();
-    names_.resize(first_name);
-    values_.resize(first_value);
-    values_.push_back(SvarParts::object(std::move(map)));
+  }
+
+  // The value of the next part.
+  static Svar take(Cursor& cursor) {
+    const JsonPart& part = *cursor.part++;
+    switch (part.type) {
+      case SvarType::null:
+        break;
+      case SvarType::boolean:
+        return Svar(part.integer != 0);
+      case SvarType::integer:
+        return Svar(part.integer);
+      case SvarType::real:
+        return Svar(part.real);
+      default:
+        return std::move(*cursor.made++);
+    }
+    return Svar();
   }
 
   void resolveRepeat(OrderedMap<Svar>& map, OrderedMap<Svar>::Repeat repeat,
@@ -211,17 +317,39 @@ class JsonReader {
 
   bool isNumberNext() const noexcept {
     const char c = lexer_.peek();
-    return c == '-' || (c >= '0' && c <= '9');
+    return c == '-' || isDigit(c);
   }
 
-  void readNumber() {
-    const char* const begin = lexer_.at();
-    const ParsedNumber number = parseNumber(begin, lexer_.end());
+  // Numbers with commas between, which is what long arrays are made of; stops after the last that
+  // is short. Keeps the place in a register. False where there is none.
+  bool readShortNumbers() {
+    const char* const end = lexer_.end();
+    const char* after = nullptr;
+    for (const char* p = lexer_.at();;) {
+      ShortNumber number = {false, 0};
+      p = parseShortNumber(p, end, number);
+      if (p == nullptr) break;
+      if (number.is_integer) {
+        parts_.emplace_back(number.integer());
+      } else {
+        parts_.emplace_back(number.real());
+      }
+      after = p;
+      if (*p != ',') break;
+      do {
+        ++p;
+      } while (p != end && isSpace(*p));
+    }
+    if (after != nullptr) lexer_.moveTo(after);
+    return after != nullptr;
+  }
+
+  void readNumber(const ParsedNumber& number) {
     if (number.status != NumberStatus::ok) return readOddNumber(number);
     if (number.is_integer) {
-      values_.emplace_back(number.integer);
+      parts_.emplace_back(number.integer);
     } else {
-      values_.emplace_back(number.real);
+      parts_.emplace_back(number.real);
     }
     lexer_.moveTo(number.end);
   }
@@ -240,7 +368,7 @@ class JsonReader {
       case NumberStatus::integer_as_double:
         break;
     }
-    values_.emplace_back(number.real);
+    parts_.emplace_back(number.real);
     lexer_.moveTo(number.end);
   }
 
@@ -250,8 +378,9 @@ class JsonReader {
 
   JsonLexer lexer_;
   const JsonOptions& options_;
-  std::vector<Svar> values_;
-  std::vector<JsonString> names_;  // of the members of all open objects
+  std::vector<JsonPart> parts_;    // of all open arrays and objects
+  std::vector<Svar> made_;         // the strings, arrays and objects among them
+  std::vector<JsonString> names_;  // of the members among them
   std::vector<Open> open_;
 };
 

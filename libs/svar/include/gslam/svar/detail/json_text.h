@@ -20,6 +20,11 @@ struct JsonString {
   std::size_t size() const noexcept { return static_cast<std::size_t>(end - begin); }
 };
 
+/// Whether a character may stand between the words of JSON.
+inline bool isSpace(char c) noexcept {
+  return c <= ' ' && (c == ' ' || c == '\n' || c == '\r' || c == '\t');
+}
+
 /// Eight bytes, the first one lowest on every machine. Compilers make one instruction of it.
 inline std::uint64_t eightBytes(const char* p) noexcept {
   const auto byte = [p](int i) {

@@ -4,7 +4,7 @@
 // [2] N. Mushtak, D. Lemire, "Fast Number Parsing Without Fallback", the same, 2023
 //
 // Computes with integers only: Clinger's way for short numbers, one division of doubles, would save
-// a nanosecond, but go wrong in other rounding modes and with -ffast-math.
+// half a nanosecond, but go wrong in other rounding modes and with -ffast-math.
 #ifndef GSLAM_SVAR_DETAIL_PARSE_NUMBER_H
 #define GSLAM_SVAR_DETAIL_PARSE_NUMBER_H
 
@@ -13,6 +13,14 @@
 
 #include <cstddef>
 #include <cstdint>
+
+// Compilers would not inline functions of this length, though that saves a twentieth of the time
+// that JSON takes.
+#ifdef __GNUC__
+#define GSLAM_DETAIL_INLINE inline __attribute__((always_inline))
+#else
+#define GSLAM_DETAIL_INLINE inline
+#endif
 
 namespace gslam {
 inline namespace v1 {
@@ -46,11 +54,13 @@ inline bool isDigit(char c) noexcept {
   return c >= '0' && c <= '9';
 }
 
-inline bool areEightDigits(std::uint64_t text) noexcept {
+/// Bits of the upper halves of bytes, of which the lowest is in the first byte that is no digit; 0
+/// where all are digits.
+inline std::uint64_t markNoDigits(std::uint64_t text) noexcept {
   const std::uint64_t ones = 0x0101010101010101u;
-  // The upper half of each byte must be 3, also with 6 added to the lower half.
-  const std::uint64_t wrong = (text ^ ones * 0x30) | ((text + ones * 6) ^ ones * 0x30);
-  return (wrong & ones * 0xF0) == 0;
+  // The upper half of a digit is 3, also with 6 added to the lower half. What that carries changes
+  // only bytes above one that is no digit.
+  return ((text ^ ones * 0x30) | ((text + ones * 6) ^ ones * 0x30)) & ones * 0xF0;
 }
 
 /// Joins neighbours to numbers of two digits, these to four, these to eight.
@@ -70,7 +80,7 @@ struct Digits {
 inline Digits readDigits(const char* p, const char* end, std::uint64_t value) noexcept {
   for (; end - p >= 8; p += 8) {
     const std::uint64_t text = eightBytes(p);
-    if (!areEightDigits(text)) break;
+    if (markNoDigits(text) != 0) break;
     value = value * 100000000 + valueOfEightDigits(text);
   }
   for (; p != end && isDigit(*p); ++p) value = value * 10 + static_cast<unsigned>(*p - '0');
@@ -275,13 +285,90 @@ inline const char* readExponent(const char* p, const char* end, std::int64_t& ex
   return p;
 }
 
-/// Reads the number that begins at `begin`: -?(0|[1-9][0-9]*)(\.[0-9]+)?([eE][+-]?[0-9]+)? as of
-/// RFC 8259, section 6. What follows it is not looked at: "01" is the number 0 and something else.
-///
-/// Without fraction and exponent it is an integer, except that -0 is the double -0.0. What is not
-/// is the nearest double, of two as near the one with an even significand; tiny numbers are 0.
-/// Never reads at or past `end`, never allocates. May be called from many threads.
-inline ParsedNumber parseNumber(const char* begin, const char* end) noexcept {
+/// The bits of the double next to digits / 10^places, which is far from being subnormal or
+/// infinite.
+/// @param digits  not 0
+/// @param places  from 1 to 19
+GSLAM_DETAIL_INLINE std::uint64_t roundFraction(std::uint64_t digits, std::size_t places) noexcept {
+  const RoughPower power = tenToTheMinus(places);
+  const int shift = leadingZeros(digits);
+  const std::uint64_t product = multiplyWide(digits << shift, power.digits).high;
+  const int top = static_cast<int>(product >> 63);
+  // 53 bits to keep, one to round with, ten that are left. The exact product is less than two above
+  // (but for the factor 2^(1 - top)), and never equal: it may round to another double only where
+  // all that is left is set, and the bit to round with is not.
+  const std::uint64_t bits = product << (1 - top);
+  if (((bits | 1) & 0x7FF) == 0x3FF) return roundToDouble(digits, -static_cast<int>(places));
+  const std::int64_t biased = power.exponent + 63 + top - shift + 1023;
+  return (static_cast<std::uint64_t>(biased - 1) << 52) + (((bits >> 10) + 1) >> 1);
+}
+
+/// An int64 or a double, either as 64 bits: in place of ParsedNumber, to stay in registers.
+struct ShortNumber {
+  bool is_integer;
+  std::uint64_t bits;
+
+  std::int64_t integer() const noexcept {
+    return bits >> 63 == 0 ? static_cast<std::int64_t>(bits)
+                           : -static_cast<std::int64_t>(~bits) - 1;
+  }
+  double real() const noexcept { return doubleOf(bits); }
+};
+
+/// Goes on with parseShortNumber() at the point, after the digits from `whole` on.
+GSLAM_DETAIL_INLINE const char* parseShortReal(const char* whole, const char* point,
+                                               const char* end, std::uint64_t digits,
+                                               std::uint64_t& magnitude) noexcept {
+  const char* const fraction = point + 1;
+  const char* p = fraction;
+  std::uint64_t text = eightBytes(p);
+  std::uint64_t others = markNoDigits(text);
+  for (; others == 0; others = markNoDigits(text)) {
+    digits = digits * 100000000 + valueOfEightDigits(text);
+    p += 8;
+    if (end - p < 9) return nullptr;
+    text = eightBytes(p);
+  }
+  // What is left, be it one digit or seven, takes the same steps: no processor foresees how many.
+  const int bits = trailingZeros(others) & ~7;
+  p += bits / 8;
+  if (p == fraction || p - whole > 20 || (*p | 0x20) == 'e') return nullptr;
+  digits = digits * tenToThe(static_cast<std::size_t>(bits / 8)) +
+           valueOfEightDigits(text << 8 << (56 - bits));
+  magnitude = digits == 0 ? 0 : roundFraction(digits, static_cast<std::size_t>(p - fraction));
+  return p;
+}
+
+/// Reads an integer or a double such as -12.345, of at most 19 digits and without exponent, as most
+/// are.
+/// @return its end; null where there is something else, or the text ends within 32 bytes
+GSLAM_DETAIL_INLINE const char* parseShortNumber(const char* begin, const char* end,
+                                                 ShortNumber& number) noexcept {
+  if (end - begin < 32) return nullptr;
+  // A number, not a bool, lest compilers make a branch of it, which no processor foresees.
+  const std::uint64_t negative = *begin == '-' ? 1 : 0;
+  const char* const whole = begin + negative;
+  const char* p = whole;
+  std::uint64_t digits = 0;
+  for (; isDigit(*p); ++p) {
+    if (p - whole == 19) return nullptr;
+    digits = digits * 10 + static_cast<unsigned>(*p - '0');
+  }
+  if (p == whole || (p - whole > 1 && *whole == '0')) return nullptr;
+  number.is_integer = *p != '.';
+  if (!number.is_integer) {
+    p = parseShortReal(whole, p, end, digits, number.bits);
+    number.bits |= negative << 63;
+    return p;
+  }
+  const bool minus_zero = digits < negative;  // which is a double
+  if (minus_zero || digits >> 63 != 0 || (*p | 0x20) == 'e') return nullptr;
+  number.bits = (digits ^ (0 - negative)) + negative;
+  return p;
+}
+
+/// As parseNumber(), for any number.
+inline ParsedNumber parseAnyNumber(const char* begin, const char* end) noexcept {
   const bool negative = begin != end && *begin == '-';
   const char* const whole = begin + (negative ? 1 : 0);
   Digits digits = {whole, 0};
@@ -311,8 +398,24 @@ inline ParsedNumber parseNumber(const char* begin, const char* end) noexcept {
   return is_real ? parsedReal(p, nearestBits(text), negative) : parsedInteger(p, text, negative);
 }
 
+/// Reads the number that begins at `begin`: -?(0|[1-9][0-9]*)(\.[0-9]+)?([eE][+-]?[0-9]+)? as of
+/// RFC 8259, section 6. What follows it is not looked at: "01" is the number 0 and something else.
+///
+/// Without fraction and exponent it is an integer, except that -0 is the double -0.0. What is not
+/// is the nearest double, of two as near the one with an even significand; tiny numbers are 0.
+/// Never reads at or past `end`, never allocates. May be called from many threads.
+inline ParsedNumber parseNumber(const char* begin, const char* end) noexcept {
+  ShortNumber number = {false, 0};
+  const char* const after = parseShortNumber(begin, end, number);
+  if (after == nullptr) return parseAnyNumber(begin, end);
+  if (number.is_integer) return {after, true, number.integer(), 0, NumberStatus::ok};
+  return {after, false, 0, number.real(), NumberStatus::ok};
+}
+
 }  // namespace detail
 }  // namespace v1
 }  // namespace gslam
+
+#undef GSLAM_DETAIL_INLINE
 
 #endif  // GSLAM_SVAR_DETAIL_PARSE_NUMBER_H

@@ -47,6 +47,15 @@ inline int leadingZeros(std::uint64_t word) noexcept {
 #endif
 }
 
+/// How many bits stand behind the last that is set; there must be one.
+inline int trailingZeros(std::uint64_t word) noexcept {
+#ifdef __GNUC__
+  return __builtin_ctzll(word);
+#else
+  return 63 - leadingZeros(word & (~word + 1));
+#endif
+}
+
 inline Uint128 plusOne(Uint128 number) noexcept {
   const std::uint64_t low = number.low + 1;
   return {number.high + (low == 0 ? 1 : 0), low};
@@ -110,6 +119,26 @@ inline std::uint64_t tenToThe(std::size_t n) noexcept {
 inline int floorLog2OfTenToThe(int n) noexcept {
   const int far = 2000;
   return static_cast<int>(static_cast<unsigned>(n * 217706 + far * 65536) >> 16) - far;
+}
+
+/// A number from digits * 2^(exponent - 63) on, less than 2^(exponent - 63) above; the highest bit
+/// of the digits is set.
+struct RoughPower {
+  std::uint64_t digits;
+  std::int64_t exponent;
+};
+
+/// 10^-n for n <= 19: PowersOfFive::table()[-n].high at hand.
+inline RoughPower tenToTheMinus(std::size_t n) noexcept {
+  static constexpr RoughPower kPowers[] = {
+      {0x8000000000000000, 0},   {0xCCCCCCCCCCCCCCCC, -4},  {0xA3D70A3D70A3D70A, -7},
+      {0x83126E978D4FDF3B, -10}, {0xD1B71758E219652B, -14}, {0xA7C5AC471B478423, -17},
+      {0x8637BD05AF6C69B5, -20}, {0xD6BF94D5E57A42BC, -24}, {0xABCC77118461CEFC, -27},
+      {0x89705F4136B4A597, -30}, {0xDBE6FECEBDEDD5BE, -34}, {0xAFEBFF0BCB24AAFE, -37},
+      {0x8CBCCC096F5088CB, -40}, {0xE12E13424BB40E13, -44}, {0xB424DC35095CD80F, -47},
+      {0x901D7CF73AB0ACD9, -50}, {0xE69594BEC44DE15B, -54}, {0xB877AA3236A4B449, -57},
+      {0x9392EE8E921D5D07, -60}, {0xEC1E4A7DB69561A5, -64}};
+  return kPowers[n];
 }
 
 /// The first 128 bits of 5^n, hence of 10^n, the highest of which is set:

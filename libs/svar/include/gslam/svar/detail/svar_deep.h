@@ -30,13 +30,25 @@ void Svar::forEachContainer(F f) const {
   if (type_ == SvarType::object) forEachContainer(asObject(), f);
 }
 
+namespace detail {
+
+template <class T>
+void swapIfSame(T& a, T& b) noexcept {
+  a.swap(b);
+}
+template <class T, class U>
+void swapIfSame(T&, U&) noexcept {}
+
+}  // namespace detail
+
 // Left to themselves, destructors of nested parts would recurse as deep as the value is. So the
 // outermost one on this thread lists the parts and destroys them one by one; those of the parts
-// only add to its list.
+// only add to its list. The elements of an outermost array need no other list than their own.
 template <class Parts>
 void Svar::releaseContainers(Parts& parts) noexcept {
   std::vector<Svar>*& outermost = pendingOnThisThread();
   std::vector<Svar> mine;
+  if (outermost == nullptr) detail::swapIfSame(mine, parts);
   std::vector<Svar>* const list = outermost != nullptr ? outermost : &mine;
   try {
     forEachContainer(parts, [list](Svar& part) { list->push_back(std::move(part)); });
