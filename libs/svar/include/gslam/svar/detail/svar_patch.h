@@ -198,7 +198,7 @@ class PatchTarget {
 
 inline Svar Svar::merged(const Svar& over) const {
   if (!detail::areObjects(*this, over)) return over.clone();
-  const Svar result = clone();
+  Svar result = clone();
   std::vector<std::pair<Svar, Svar>> todo(1, {result, over.clone()});
   while (!todo.empty()) {
     const std::pair<Svar, Svar> next = todo.back();
