@@ -26,7 +26,6 @@ namespace {
 
 using gslam::Svar;
 using gslam::SvarError;
-using gslam::SvarType;
 
 // What Svar does not know, it does not take for something else.
 static_assert(!std::is_convertible<std::map<int, int>, Svar>::value, "");

@@ -42,8 +42,8 @@ TEST(Function, IsAValueOfItsOwnType) {
 
 TEST(Function, EqualsOnlyItselfBeItCopiedOrCloned) {
   const Svar f = Svar::function(twice);
-  const Svar copy = f;
-  EXPECT_EQ(copy, f);
+  const std::vector<Svar> copies(2, f);
+  EXPECT_EQ(copies[0], f);
   EXPECT_EQ(f.clone(), f);
   EXPECT_EQ(f.frozen(), f);
   EXPECT_EQ(Svar::array({f}).clone(), Svar::array({f}));
@@ -96,7 +96,7 @@ TEST(Function, ParametersLiveUntilTheResultIsMade) {
   const Svar same = Svar::function([](const std::string& s) -> const std::string& { return s; });
   EXPECT_EQ(same(text), Svar(text));
   const Svar take = Svar::function([](std::vector<int>&& v) {
-    const std::vector<int> mine = std::move(v);
+    std::vector<int> mine = std::move(v);
     return mine;
   });
   const Svar list = Svar::array({1, 2});
@@ -199,9 +199,9 @@ TEST(Function, MayReplaceTheValueItIsCalledFrom) {
   Svar once;
   once = Svar::function([&once, text] {
     once = "done";
-    return text;
+    return text.size();
   });
-  EXPECT_EQ(once(), Svar(text));
+  EXPECT_EQ(once(), 100);
   EXPECT_EQ(once, "done");
 }
 
