@@ -119,13 +119,18 @@ class JsonReader {
   }
 
   void readString() {
-    const JsonString string = lexer_.skipString();
-    if (string.has_escapes) {
-      made_.emplace_back(decodeEscapes(string));
-    } else {
-      made_.push_back(SvarParts::string(Text(string.begin, string.size())));
-    }
+    const char* const begin = lexer_.at() + 1;
+    const bool has_escapes = lexer_.skipString();
+    const JsonString string(begin, lexer_.at() - 1, has_escapes);
+    made_.push_back(SvarParts::string(textOf(string)));
     parts_.emplace_back(SvarType::string);
+  }
+
+  // What a string stands for, until the next one is asked for.
+  Text textOf(const JsonString& string) {
+    if (!string.has_escapes) return Text(string.begin, string.size());
+    decodeEscapes(string, decoded_);
+    return decoded_;
   }
 
   void readNumberOrWord(const char* expected) {
@@ -202,7 +207,9 @@ class JsonReader {
 
   void readName(const char* expected) {
     if (lexer_.peek() != '"') lexer_.failExpected(lexer_.at(), expected);
-    names_.push_back(lexer_.skipString());
+    const char* const begin = lexer_.at() + 1;
+    const bool has_escapes = lexer_.skipString();
+    names_.emplace_back(begin, lexer_.at() - 1, has_escapes);
     lexer_.skipSpace();
     if (!lexer_.skip(':')) lexer_.failExpected(lexer_.at(), "':' after the name");
     lexer_.skipSpace();
@@ -258,14 +265,10 @@ class JsonReader {
     std::vector<Svar::Member> members;
     members.reserve(count);
     while (cursor.part != cursor.end) {
-      const JsonString& name = *cursor.name++;
-      if (name.has_escapes) {
-        members.emplace_back(decodeEscapes(name), take(cursor));
-      } else {
-        members.emplace_back(std::piecewise_construct,
-                             std::forward_as_tuple(name.begin, name.size()),
-                             std::forward_as_tuple(take(cursor)));
-      }
+      const Text name = textOf(*cursor.name++);
+      members.emplace_back(std::piecewise_construct,
+                           std::forward_as_tuple(name.data(), name.size()),
+                           std::forward_as_tuple(take(cursor)));
     }
     OrderedMap<Svar> map;
     const OrderedMap<Svar>::Repeat repeat = map.assign(std::move(members));
@@ -382,6 +385,7 @@ class JsonReader {
   std::vector<Svar> made_;         // the strings, arrays and objects among them
   std::vector<JsonString> names_;  // of the members among them
   std::vector<Open> open_;
+  std::string decoded_;  // a string whose escapes were replaced
 };
 
 }  // namespace detail
