@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <iterator>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -266,9 +265,9 @@ class JsonReader {
     members.reserve(count);
     while (cursor.part != cursor.end) {
       const Text name = textOf(*cursor.name++);
-      members.emplace_back(std::piecewise_construct,
-                           std::forward_as_tuple(name.data(), name.size()),
-                           std::forward_as_tuple(take(cursor)));
+      members.emplace_back();
+      members.back().first.assign(name.data(), name.size());
+      members.back().second = take(cursor);
     }
     OrderedMap<Svar> map;
     const OrderedMap<Svar>::Repeat repeat = map.assign(std::move(members));
@@ -278,9 +277,9 @@ class JsonReader {
 
   // Puts an array or object in the place of its parts.
   void close(const Open& open, Svar value) {
-    parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(open.first_part), parts_.end());
-    names_.erase(names_.begin() + static_cast<std::ptrdiff_t>(open.first_name), names_.end());
-    made_.erase(made_.begin() + static_cast<std::ptrdiff_t>(open.first_made), made_.end());
+    while (parts_.size() > open.first_part) parts_.pop_back();
+    while (names_.size() > open.first_name) names_.pop_back();
+    while (made_.size() > open.first_made) made_.pop_back();
     parts_.emplace_back(value.type());
     made_.push_back(std::move(value));
     open_.pop_back();
