@@ -55,11 +55,11 @@ class JsonLexer {
     return true;
   }
 
-  /// Goes past a string, from the quote at which it begins, and checks all of it.
-  JsonString skipString() {
-    const char* const begin = at_ + 1;
+  /// Goes past a string, from the quote at which it begins to behind that at which it ends, and
+  /// checks all of it. Says whether there are escapes in it.
+  bool skipString() {
     bool has_escapes = false;
-    const char* p = skipPlain(begin, end_);
+    const char* p = skipPlain(at_ + 1, end_);
     while (p == end_ || *p != '"') {
       if (p == end_) {
         fail(at_, "expected '\"' at the end of this string, found the end of the text");
@@ -68,7 +68,7 @@ class JsonLexer {
       p = skipPlain(*p == '\\' ? pastEscape(p) : pastUtf8(p), end_);
     }
     at_ = p + 1;
-    return {begin, p, has_escapes};
+    return has_escapes;
   }
 
   /// Line and column, both from 1.

@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <iterator>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -119,13 +118,18 @@ class JsonReader {
   }
 
   void readString() {
-    const JsonString string = lexer_.skipString();
-    if (string.has_escapes) {
-      made_.emplace_back(decodeEscapes(string));
-    } else {
-      made_.push_back(SvarParts::string(Text(string.begin, string.size())));
-    }
+    const char* const begin = lexer_.at() + 1;
+    const bool has_escapes = lexer_.skipString();
+    const JsonString string(begin, lexer_.at() - 1, has_escapes);
+    made_.push_back(SvarParts::string(textOf(string)));
     parts_.emplace_back(SvarType::string);
+  }
+
+  // What a string stands for, until the next one is asked for.
+  Text textOf(const JsonString& string) {
+    if (!string.has_escapes) return Text(string.begin, string.size());
+    decodeEscapes(string, decoded_);
+    return decoded_;
   }
 
   void readNumberOrWord(const char* expected) {
@@ -202,7 +206,9 @@ class JsonReader {
 
   void readName(const char* expected) {
     if (lexer_.peek() != '"') lexer_.failExpected(lexer_.at(), expected);
-    names_.push_back(lexer_.skipString());
+    const char* const begin = lexer_.at() + 1;
+    const bool has_escapes = lexer_.skipString();
+    names_.emplace_back(begin, lexer_.at() - 1, has_escapes);
     lexer_.skipSpace();
     if (!lexer_.skip(':')) lexer_.failExpected(lexer_.at(), "':' after the name");
     lexer_.skipSpace();
@@ -258,14 +264,10 @@ class JsonReader {
     std::vector<Svar::Member> members;
     members.reserve(count);
     while (cursor.part != cursor.end) {
-      const JsonString& name = *cursor.name++;
-      if (name.has_escapes) {
-        members.emplace_back(decodeEscapes(name), take(cursor));
-      } else {
-        members.emplace_back(std::piecewise_construct,
-                             std::forward_as_tuple(name.begin, name.size()),
-                             std::forward_as_tuple(take(cursor)));
-      }
+      const Text name = textOf(*cursor.name++);
+      members.emplace_back();
+      members.back().first.assign(name.data(), name.size());
+      members.back().second = take(cursor);
     }
     OrderedMap<Svar> map;
     const OrderedMap<Svar>::Repeat repeat = map.assign(std::move(members));
@@ -275,9 +277,9 @@ class JsonReader {
 
   // Puts an array or object in the place of its parts.
   void close(const Open& open, Svar value) {
-    parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(open.first_part), parts_.end());
-    names_.erase(names_.begin() + static_cast<std::ptrdiff_t>(open.first_name), names_.end());
-    made_.erase(made_.begin() + static_cast<std::ptrdiff_t>(open.first_made), made_.end());
+    while (parts_.size() > open.first_part) parts_.pop_back();
+    while (names_.size() > open.first_name) names_.pop_back();
+    while (made_.size() > open.first_made) made_.pop_back();
     parts_.emplace_back(value.type());
     made_.push_back(std::move(value));
     open_.pop_back();
@@ -382,6 +384,7 @@ class JsonReader {
   std::vector<Svar> made_;         // the strings, arrays and objects among them
   std::vector<JsonString> names_;  // of the members among them
   std::vector<Open> open_;
+  std::string decoded_;  // a string whose escapes were replaced
 };
 
 }  // namespace detail

@@ -13,6 +13,9 @@ namespace detail {
 
 /// What stands between the quotes of a string.
 struct JsonString {
+  JsonString(const char* first, const char* last, bool escapes) noexcept
+      : begin(first), end(last), has_escapes(escapes) {}
+
   const char* begin;
   const char* end;
   bool has_escapes;
@@ -154,9 +157,9 @@ inline char unescape(char letter) noexcept {
   }
 }
 
-/// The text that a string stands for, all of which must be known to be well-formed.
-inline std::string decodeEscapes(const JsonString& string) {
-  std::string text;
+/// Sets `text` to what a string stands for, all of which must be known to be well-formed.
+inline void decodeEscapes(const JsonString& string, std::string& text) {
+  text.clear();
   text.reserve(string.size());
   for (const char* p = string.begin; p != string.end;) {
     const char* const begin = p;
@@ -177,7 +180,6 @@ inline std::string decodeEscapes(const JsonString& string) {
     }
     appendUtf8(code, text);
   }
-  return text;
 }
 
 }  // namespace detail
