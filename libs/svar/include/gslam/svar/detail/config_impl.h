@@ -65,7 +65,7 @@ Config::Argument<T> Config::arg(const std::string& name,
   parameter.default_value = Svar(default_value).frozen();
   std::unique_ptr<Rule> rule = Rule::make<T>(name, Rule::must_be_there);
   parameter.rule = rule.get();
-  addRule(std::move(rule), parameter.default_value);
+  addRule(std::move(rule), &parameter.default_value);
   return Argument<T>(*this, parameter);
 }
 
@@ -76,7 +76,7 @@ Config::Argument<T> Config::arg(const std::string& name, const std::string& help
   parameter.is_required = true;
   std::unique_ptr<Rule> rule = Rule::make<T>(name, Rule::may_be_missing);
   parameter.rule = rule.get();
-  addRule(std::move(rule));
+  addRule(std::move(rule), nullptr);
   return Argument<T>(*this, parameter);
 }
 

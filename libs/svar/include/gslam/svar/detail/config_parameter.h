@@ -49,7 +49,7 @@ class ParameterRule : public SvarRule {
     return std::unique_ptr<ParameterRule>(new ParameterRule(path, presence, &convert<T>));
   }
 
-  void check(const Svar& value) const override {
+  std::unique_ptr<SvarTaking> check(const Svar& value) const override {
     Svar converted;
     try {
       converted = convert_(value);
@@ -59,7 +59,7 @@ class ParameterRule : public SvarRule {
     const bool good = is_inside_ == nullptr || is_inside_(value, low_, high_);
     bool chosen = choices_.size() == 0;
     for (const Svar& choice : choices_) chosen = chosen || choice == converted;
-    if (good && chosen) return;
+    if (good && chosen) return nullptr;
     throw SvarError(path(), "expected " + limits() + ", found " + SvarParts::describe(value));
   }
 
