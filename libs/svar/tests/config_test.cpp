@@ -2,6 +2,7 @@
 #include <gslam/svar/config.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -222,7 +223,8 @@ Config& declarePlayer(Config& config) {
   config
       .arg<std::string>("mode", "fast",
                         "how frames are chosen, which is a long story with many words")
-      .choices({"fast", "slow"});
+      .choices({"fast", "slow"})
+      .shortName("m");
   config.arg<std::vector<int>>("levels", {1, 2}, "of the pyramid").group("Tracker");
   config.arg<Svar>("slam", nullptr, "parameters of the SLAM system").group("Tracker");
   config.arg<std::string>("a-very-long-name-of-a-parameter", "", "z\xC3\xBCrich").group("Tracker");
@@ -241,7 +243,7 @@ Options:
                       command line)
   --realtime, --no-realtime
                       pace frames by their stamps (default false)
-  --mode STRING       how frames are chosen, which is a long story with
+  -m, --mode STRING   how frames are chosen, which is a long story with
                       many words (one of "fast", "slow"; default "fast")
   --size INT32        of it (required)
 
@@ -262,6 +264,28 @@ General:
 
 Later ones win: defaults, files, environment (X_NAME), command line.
 )");
+}
+
+TEST(Help, TakesOddDeclarations) {
+  Config config("player", "", "");
+  config.arg<Svar>("threshold", 5, "");
+  config.arg<Svar>("slam", Svar::object(), "");
+  config.arg<int>("height", 1, "").shortName("h");
+  config.arg<int>("needed", "");
+  config.arg<double>("nan", std::nan(""), "none yet");
+  const std::string help = config.help();
+  EXPECT_EQ(help.substr(0, help.find("General")), R"(Usage: player
+
+Options:
+  --threshold VALUE, --threshold.NAME VALUE
+                      (default 5)
+  --slam VALUE, --slam.NAME VALUE
+  -h, --height INT32  (default 1)
+  --needed INT32      (required)
+  --nan DOUBLE        none yet (default double nan)
+
+)");
+  EXPECT_EQ(help.find("-h, --help"), std::string::npos);
 }
 
 TEST(Help, FitsItsWidth) {
@@ -310,6 +334,7 @@ TEST(BashCompletion, OffersNamesChoicesAndFiles) {
   Config config("player [options] DIR");
   declarePlayer(config);
   config.arg<std::string>("kind", "it'\"s", "").choices({"it'\"s", "a $(b) *", "third"});
+  config.arg<double>("ratio", 1, "").choices({1, 0.5});
   EXPECT_EQ(offers(config, "player --re", 1), "--realtime\n");
   EXPECT_EQ(offers(config, "player --no", 1), "--no-realtime\n");
   EXPECT_EQ(offers(config, "player x --f", 2), "--fps\n");
@@ -318,6 +343,9 @@ TEST(BashCompletion, OffersNamesChoicesAndFiles) {
   EXPECT_EQ(offers(config, "player --mode = s", 3), "slow\n");
   EXPECT_EQ(offers(config, "player --mode =", 2), "fast\nslow\n");
   EXPECT_EQ(offers(config, "player --kind \"\"", 2), "it'\"s\na $(b) *\nthird\n");
+  EXPECT_EQ(offers(config, "player -m s", 2), "slow\n");
+  EXPECT_EQ(offers(config, "player -m = f", 3), "fast\n");
+  EXPECT_EQ(offers(config, "player --ratio \"\"", 2), "1\n0.5\n");
   EXPECT_EQ(offers(config, "player completion.s", 1), "completion.sh\n");
   EXPECT_NE(offers(config, "player -", 1).find("--bash-completion\n"), std::string::npos);
 }

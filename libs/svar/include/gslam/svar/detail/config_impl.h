@@ -259,7 +259,8 @@ inline std::string Config::help(std::size_t width) const {
   table.add("General", "--config FILE", "read parameters from a file; may be given several times");
   table.add("General", "--dump-config", "print all values as JSON, which --config reads, and end");
   table.add("General", "--bash-completion", "print a script for bash, to be sourced, and end");
-  table.add("General", "-h, --help", "print this and end");
+  const bool h_is_free = detail::findParameter(parameters_, "h") == nullptr;
+  table.add("General", h_is_free ? "-h, --help" : "--help", "print this and end");
   out += table.text() + "\n";
   const std::string variables =
       environment_.empty() ? "" : ", environment (" + environment_ + "NAME)";
