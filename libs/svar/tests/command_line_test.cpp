@@ -2,6 +2,7 @@
 #include <gslam/svar/config.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -170,6 +171,22 @@ TEST(CommandLine, TakesLists) {
   EXPECT_EQ(parseError({"--camera.k=[1,true]"}),
             "--camera.k: camera.k.1: expected double, found bool true");
   EXPECT_NE(parseError({"--camera.k=[1,"}), "no error");
+}
+
+TEST(CommandLine, TakesListsOfAllKinds) {
+  Config config("", "", "");
+  config.arg<std::array<int, 2>>("size", {{640, 480}}, "");
+  config.arg<std::vector<bool>>("flags", {}, "");
+  config.arg<std::vector<std::string>>("names", {}, "");
+  config.parse({"--size=1,2", "--flags", "yes,off,1", "--names=a,,b c"});
+  EXPECT_EQ((config.get<std::array<int, 2>>("size")), (std::array<int, 2>{{1, 2}}));
+  EXPECT_EQ(config.get<std::vector<bool>>("flags"), (std::vector<bool>{true, false, true}));
+  EXPECT_EQ(config.get<Words>("names"), (Words{"a", "", "b c"}));
+  config.parse({"--names", R"(["a,b", ""])", "--flags="});
+  EXPECT_EQ(config.get<Words>("names"), (Words{"a,b", ""}));
+  EXPECT_EQ(config["flags"].size(), 0u);
+  EXPECT_THROW(config.parse({"--size=1,2,3"}), ConfigError);
+  EXPECT_NE(config.help().find("--size INT32,..."), std::string::npos);
 }
 
 TEST(CommandLine, ReachesIntoOpenParameters) {

@@ -28,7 +28,7 @@ inline std::string textOfValue(const Svar& value) {
 }
 
 /// What stands for a value of that type in the help: "INT32", "DOUBLE,..."
-template <class T, bool is_sequence = IsSequence<T>::value>
+template <class T, bool is_list = IsList<T>::value>
 struct Placeholder {
   static std::string text() {
     std::string name = std::is_same<T, Svar>::value ? "value" : svarTypeName<T>();
