@@ -87,6 +87,17 @@ TEST(CommandLine, TreatsDashesAndUnderscoresAlike) {
   EXPECT_EQ(parsed<int>({"max-features=6"}, "max_features"), 6);
 }
 
+TEST(CommandLine, TakesAllSpellingsOfWhatIsInsideAndOfItsOwn) {
+  Config config;
+  config.arg<Svar>("my-slam", Svar::object({{"list", Svar::array({1, 2})}}), "");
+  config.parse({"--my_slam.x=1", "my-slam.list.0=7"});
+  EXPECT_EQ(config["my-slam"], Svar::object({{"list", Svar::array({7, 2})}, {"x", 1}}));
+  EXPECT_THROW(config.parse({"--my-slam.list.2=7"}), ConfigError);
+  EXPECT_THROW(config.parse({"--my-slam.x.y=7"}), ConfigError);
+  EXPECT_THROW(config.parse({"config=/no/such/file.json"}), gslam::FileError);
+  EXPECT_EQ(parseError({"help=1"}), "help: takes no value");
+}
+
 TEST(CommandLine, SetsAndClearsFlags) {
   for (const Words& words : std::vector<Words>{{"--realtime"},
                                                {"-realtime"},
