@@ -2,6 +2,7 @@
 #include <gslam/svar/config.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -84,6 +85,17 @@ TEST(CommandLine, RefusesWhatIsNoNumber) {
 TEST(CommandLine, TreatsDashesAndUnderscoresAlike) {
   EXPECT_EQ(parsed<int>({"--max-features", "5"}, "max_features"), 5);
   EXPECT_EQ(parsed<int>({"max-features=6"}, "max_features"), 6);
+}
+
+TEST(CommandLine, TakesAllSpellingsOfWhatIsInsideAndOfItsOwn) {
+  Config config;
+  config.arg<Svar>("my-slam", Svar::object({{"list", Svar::array({1, 2})}}), "");
+  config.parse({"--my_slam.x=1", "my-slam.list.0=7"});
+  EXPECT_EQ(config["my-slam"], Svar::object({{"list", Svar::array({7, 2})}, {"x", 1}}));
+  EXPECT_THROW(config.parse({"--my-slam.list.2=7"}), ConfigError);
+  EXPECT_THROW(config.parse({"--my-slam.x.y=7"}), ConfigError);
+  EXPECT_THROW(config.parse({"config=/no/such/file.json"}), gslam::FileError);
+  EXPECT_EQ(parseError({"help=1"}), "help: takes no value");
 }
 
 TEST(CommandLine, SetsAndClearsFlags) {
@@ -170,6 +182,22 @@ TEST(CommandLine, TakesLists) {
   EXPECT_EQ(parseError({"--camera.k=[1,true]"}),
             "--camera.k: camera.k.1: expected double, found bool true");
   EXPECT_NE(parseError({"--camera.k=[1,"}), "no error");
+}
+
+TEST(CommandLine, TakesListsOfAllKinds) {
+  Config config("", "", "");
+  config.arg<std::array<int, 2>>("size", {{640, 480}}, "");
+  config.arg<std::vector<bool>>("flags", {}, "");
+  config.arg<std::vector<std::string>>("names", {}, "");
+  config.parse({"--size=1,2", "--flags", "yes,off,1", "--names=a,,b c"});
+  EXPECT_EQ((config.get<std::array<int, 2>>("size")), (std::array<int, 2>{{1, 2}}));
+  EXPECT_EQ(config.get<std::vector<bool>>("flags"), (std::vector<bool>{true, false, true}));
+  EXPECT_EQ(config.get<Words>("names"), (Words{"a", "", "b c"}));
+  config.parse({"--names", R"(["a,b", ""])", "--flags="});
+  EXPECT_EQ(config.get<Words>("names"), (Words{"a,b", ""}));
+  EXPECT_EQ(config["flags"].size(), 0u);
+  EXPECT_THROW(config.parse({"--size=1,2,3"}), ConfigError);
+  EXPECT_NE(config.help().find("--size INT32,..."), std::string::npos);
 }
 
 TEST(CommandLine, ReachesIntoOpenParameters) {

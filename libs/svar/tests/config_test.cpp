@@ -2,6 +2,8 @@
 #include <gslam/svar/config.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -103,8 +105,9 @@ TEST(Config, SaysWhereAWrongValueWasGiven) {
   };
   EXPECT_EQ(wrong(wrong_type),
             wrong_type.path() + ": camera.fx: expected double, found string \"wide\"");
-  EXPECT_EQ(wrong(unknown),
-            unknown.path() + ": camera.fz is no parameter, did you mean camera.fx?");
+  EXPECT_EQ(
+      wrong(unknown),
+      unknown.path() + ": camera.fz is no parameter, did you mean camera.fx? (--help lists them)");
   EXPECT_EQ(wrong(too_large), too_large.path() + ": fps: expected 1 to 120, found int 1000");
   EXPECT_EQ(wrong(list), list.path() + ": expected an object with parameters, found array of 1");
   EXPECT_THROW(config.parse({"--config", broken.path()}), gslam::ParseError);
@@ -174,6 +177,114 @@ TEST(Config, RefusesDeclarationsThatCannotBe) {
   EXPECT_THROW(config.arg<std::string>("mode", "c", "").choices({"a", "b"}), SvarError);
 }
 
+TEST(Config, RefusesNamesThatMeanTheSame) {
+  Config config;
+  config.arg<bool>("realtime", true, "");
+  config.arg<int>("no-slam", 1, "").shortName("x-y");
+  for (const char* name : {"no-realtime", "no_realtime", "x_y", "no_slam"}) {
+    EXPECT_THROW(config.arg<int>(name, 1, ""), ArgumentError) << name;
+  }
+  EXPECT_THROW(config.arg<bool>("slam", false, ""), ArgumentError);
+  EXPECT_NO_THROW(config.arg<int>("norealtime", 1, ""));
+  config.arg<Svar>("my-cam", nullptr, "");
+  EXPECT_THROW(config.arg<int>("my_cam.fx", 1, ""), ArgumentError);
+}
+
+TEST(Config, DeclaresNothingWhereItFails) {
+  Config config("player", "", "");
+  config.set("fps", "fast");
+  config.set("level", 9);
+  EXPECT_THROW(config.arg<double>("fps", 30, ""), SvarError);
+  EXPECT_THROW(config.arg<std::uint64_t>("large", ~std::uint64_t(0), ""), SvarError);
+  EXPECT_THROW(config.arg<int>("level", 3, "").range(0, 8), SvarError);  // it is 9 already
+  EXPECT_EQ(config.help().find("--fps"), std::string::npos);
+  EXPECT_EQ(whatIsWrong(config, {"--large=1"}), "--large: is no parameter (--help lists them)");
+  EXPECT_THROW(config.origin("fps"), ArgumentError);
+  config.bind<std::map<std::string, std::string>>("texts", {});
+  EXPECT_THROW(config.arg<int>("texts.n", 1, ""), SvarError);
+  EXPECT_NO_THROW(config.set("other", 1));
+}
+
+TEST(Config, TakesNothingOverWhereSomethingIsMissing) {
+  Config config("player", "", "");
+  config.arg<int>("needed", "");
+  config.arg<int>("fps", 30, "");
+  EXPECT_EQ(whatIsWrong(config, {"--fps=25"}), "--needed: must be given");
+  EXPECT_EQ(config.get<int>("fps"), 30);
+  EXPECT_EQ(config.origin("fps"), "default");
+}
+
+TEST(Config, SaysWhereABoundVariableRefusedAValue) {
+  const File file("bound.json", R"({"camera": {"fx": 2.5}})");
+  Config config("player", "", "");
+  config.arg<double>("camera.fx", 1, "");
+  config.bind<int>("camera.fx");
+  EXPECT_EQ(whatIsWrong(config, {"--camera.fx=2.5"}),
+            "--camera.fx: expected int32, found double 2.5");
+  EXPECT_EQ(whatIsWrong(config, {"--config", file.path()}),
+            file.path() + ": camera.fx: expected int32, found double 2.5");
+  EXPECT_EQ(config.get<double>("camera.fx"), 1);
+}
+
+TEST(Config, KnowsOriginsInCallbacks) {
+  Config config;
+  config.arg<int>("n", 1, "");
+  config.arg<double>("nan", std::nan(""), "");
+  std::string seen;
+  const gslam::Watch watch = config.watch("n", [&](const Svar&) { seen = config.origin("n"); });
+  config.parse({"--n=2"});
+  EXPECT_EQ(seen, "command line");
+  EXPECT_EQ(config.origin("nan"), "default");
+}
+
+TEST(Config, FilesMayNestAndSpellNamesAsTheyLike) {
+  Config config;
+  config.arg<int>("my_cam.fx", 1, "");
+  config.arg<Svar>("my_slam", nullptr, "");
+  const auto load = [&](const std::string& text) {
+    const File file("spelled.json", text);
+    try {
+      config.loadFile(file.path());
+    } catch (const ConfigError& error) {
+      return std::string(error.what()).substr(file.path().size() + 2);
+    }
+    return config["my_cam.fx"].as<int>() == 2 ? std::string("2") : std::string("1");
+  };
+  EXPECT_EQ(load("null"), "1");
+  EXPECT_EQ(load("{}"), "1");
+  EXPECT_EQ(load(R"({"my_cam": null, "my_slam": null})"), "1");
+  EXPECT_EQ(load(R"({"my-cam": {"fx": 2}, "my-slam.x": 3})"), "2");
+  EXPECT_EQ(config["my_slam"], Svar::object({{"x", 3}}));
+  EXPECT_EQ(load(R"({"my_cam": 5})"), "my_cam: expected an object with parameters, found int 5");
+  EXPECT_EQ(load(R"({"my_slam.a/b": 5})"), "my_slam.a/b is no name");
+  EXPECT_EQ(config.snapshot().size(), 2u);
+}
+
+TEST(Config, LargeFilesTakeTimeInProportion) {
+  const int count = 20000;
+  Svar values = Svar::object();
+  for (int i = 0; i < count; ++i) values.set("/slam.n" + std::to_string(i), i);
+  const File file("huge.json", gslam::printJson(values));
+  Config config;
+  config.arg<Svar>("slam", nullptr, "");
+  config.loadFile(file.path());  // took minutes
+  EXPECT_EQ(config["slam"].size(), static_cast<std::size_t>(count));
+}
+
+TEST(Config, MayBeParsedAgain) {
+  Config config("player", "", "");
+  config.arg<int>("a", 1, "");
+  config.arg<int>("b", 1, "");
+  config.set("a", 2);
+  config.parse({"--b=3"});
+  EXPECT_EQ(config.get<int>("a"), 2);
+  EXPECT_EQ(config.origin("a"), "program");
+  config.parse({"--a=4"});
+  EXPECT_EQ(config.get<int>("b"), 3);
+  EXPECT_EQ(config.origin("a"), "command line");
+  EXPECT_EQ(config.origin("b"), "command line");
+}
+
 TEST(Config, MissingParameterIsAnError) {
   Config config("player", "", "");
   config.arg<std::string>("calibration", "file of the camera");
@@ -222,7 +333,8 @@ Config& declarePlayer(Config& config) {
   config
       .arg<std::string>("mode", "fast",
                         "how frames are chosen, which is a long story with many words")
-      .choices({"fast", "slow"});
+      .choices({"fast", "slow"})
+      .shortName("m");
   config.arg<std::vector<int>>("levels", {1, 2}, "of the pyramid").group("Tracker");
   config.arg<Svar>("slam", nullptr, "parameters of the SLAM system").group("Tracker");
   config.arg<std::string>("a-very-long-name-of-a-parameter", "", "z\xC3\xBCrich").group("Tracker");
@@ -241,7 +353,7 @@ Options:
                       command line)
   --realtime, --no-realtime
                       pace frames by their stamps (default false)
-  --mode STRING       how frames are chosen, which is a long story with
+  -m, --mode STRING   how frames are chosen, which is a long story with
                       many words (one of "fast", "slow"; default "fast")
   --size INT32        of it (required)
 
@@ -262,6 +374,28 @@ General:
 
 Later ones win: defaults, files, environment (X_NAME), command line.
 )");
+}
+
+TEST(Help, TakesOddDeclarations) {
+  Config config("player", "", "");
+  config.arg<Svar>("threshold", 5, "");
+  config.arg<Svar>("slam", Svar::object(), "");
+  config.arg<int>("height", 1, "").shortName("h");
+  config.arg<int>("needed", "");
+  config.arg<double>("nan", std::nan(""), "none yet");
+  const std::string help = config.help();
+  EXPECT_EQ(help.substr(0, help.find("General")), R"(Usage: player
+
+Options:
+  --threshold VALUE, --threshold.NAME VALUE
+                      (default 5)
+  --slam VALUE, --slam.NAME VALUE
+  -h, --height INT32  (default 1)
+  --needed INT32      (required)
+  --nan DOUBLE        none yet (default double nan)
+
+)");
+  EXPECT_EQ(help.find("-h, --help"), std::string::npos);
 }
 
 TEST(Help, FitsItsWidth) {
@@ -310,6 +444,7 @@ TEST(BashCompletion, OffersNamesChoicesAndFiles) {
   Config config("player [options] DIR");
   declarePlayer(config);
   config.arg<std::string>("kind", "it'\"s", "").choices({"it'\"s", "a $(b) *", "third"});
+  config.arg<double>("ratio", 1, "").choices({1, 0.5});
   EXPECT_EQ(offers(config, "player --re", 1), "--realtime\n");
   EXPECT_EQ(offers(config, "player --no", 1), "--no-realtime\n");
   EXPECT_EQ(offers(config, "player x --f", 2), "--fps\n");
@@ -318,6 +453,9 @@ TEST(BashCompletion, OffersNamesChoicesAndFiles) {
   EXPECT_EQ(offers(config, "player --mode = s", 3), "slow\n");
   EXPECT_EQ(offers(config, "player --mode =", 2), "fast\nslow\n");
   EXPECT_EQ(offers(config, "player --kind \"\"", 2), "it'\"s\na $(b) *\nthird\n");
+  EXPECT_EQ(offers(config, "player -m s", 2), "slow\n");
+  EXPECT_EQ(offers(config, "player -m = f", 3), "fast\n");
+  EXPECT_EQ(offers(config, "player --ratio \"\"", 2), "1\n0.5\n");
   EXPECT_EQ(offers(config, "player completion.s", 1), "completion.sh\n");
   EXPECT_NE(offers(config, "player -", 1).find("--bash-completion\n"), std::string::npos);
 }

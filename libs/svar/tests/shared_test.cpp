@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -142,6 +145,95 @@ TEST(Bind, VersionGrowsWithChangesOnly) {
   EXPECT_GT(x.version(), first);
 }
 
+TEST(Bind, KnowsZeroesAndNaNsApart) {
+  SharedSvar tree;
+  const Bound<double>& x = tree.bind<double>("x", 0.0);
+  const auto& list = tree.bind<std::vector<double>>("list", {0.0});
+  tree.set("x", -0.0);
+  tree.set("list", Svar::array({-0.0}));
+  EXPECT_TRUE(std::signbit(x.get()));
+  EXPECT_TRUE(std::signbit(list.get()[0]));
+  int calls = 0;
+  tree.set("x", std::nan(""));
+  const std::uint64_t version = x.version();
+  const gslam::Watch watch = tree.watch("x", [&](const Svar&) { ++calls; });
+  tree.set("y", 1);
+  tree.set("x", std::nan(""));
+  EXPECT_EQ(calls, 0);
+  EXPECT_EQ(x.version(), version);
+}
+
+// Becomes a Svar and back, but not every time.
+struct Fussy {
+  static bool& refuses() {
+    static bool flag = false;
+    return flag;
+  }
+  int value;
+};
+
+}  // namespace
+namespace gslam {
+template <>
+struct SvarTraits<Fussy> {
+  static Svar toSvar(const Fussy& from) { return from.value; }
+  static Fussy fromSvar(const Svar& value) {
+    if (Fussy::refuses()) throw std::runtime_error("not now");
+    return {value.as<int>()};
+  }
+};
+}  // namespace gslam
+namespace {
+
+TEST(Bind, ChangesNothingWhereAVariableCannotTakeIt) {
+  SharedSvar tree(Svar::object({{"a", 1}, {"b", 1}}));
+  const Bound<int>& a = tree.bind<int>("a");
+  const Bound<Fussy>& b = tree.bind<Fussy>("b");
+  int calls = 0;
+  const gslam::Watch watch = tree.watch("a", [&](const Svar&) { ++calls; });
+  Fussy::refuses() = true;
+  EXPECT_THROW(tree.merge(Svar::object({{"a", 2}, {"b", 2}})), std::runtime_error);
+  EXPECT_THROW(tree.bind<Fussy>("c", Fussy{1}), std::runtime_error);
+  Fussy::refuses() = false;
+  EXPECT_FALSE(tree.contains("c"));
+  EXPECT_EQ(a, 1);
+  EXPECT_EQ(b.get().value, 1);
+  tree.set("other", 1);
+  EXPECT_EQ(calls, 0);
+}
+
+TEST(Bind, LeavesNoRuleWhereItFails) {
+  SharedSvar tree(Svar::object({{"sizes", Svar::object()}, {"list", Svar::array()}}));
+  tree.bind<std::map<std::string, int>>("sizes");
+  EXPECT_THROW(tree.bind<std::string>("sizes.name", "x"), SvarError);
+  EXPECT_THROW(tree.bind<int>("list/-", 1), SvarError);
+  EXPECT_EQ(tree.get<Svar>("list").size(), 0u);
+  EXPECT_NO_THROW(tree.set("other", 1));
+}
+
+TEST(Bind, PutsItsValueInOneStep) {
+  SharedSvar tree;
+  const gslam::Watch thief = tree.watch("x", [&](const Svar&) {
+    EXPECT_THROW(tree.erase("x"), SvarError);  // it is bound already
+  });
+  EXPECT_EQ(tree.bind<int>("x", 1), 1);
+}
+
+TEST(Bind, FollowsOneValueUnderAllItsPaths) {
+  SharedSvar tree;
+  const Bound<int>& dots = tree.bind<int>("a.b", 1);
+  const Bound<int>& slashes = tree.bind<int>("a/b");
+  const Bound<int>& pointer = tree.bind<int>("/a/b");
+  tree.set("a/b", 2);
+  EXPECT_EQ(dots + slashes + pointer, 6);
+  tree.set("/a.b", 3);  // a member of that name comes first
+  EXPECT_EQ(dots, tree.get<int>("a.b"));
+  EXPECT_EQ(slashes, 2);
+  EXPECT_THROW(tree.set("/a.b", "text"), SvarError);
+  EXPECT_TRUE(tree.erase("/a.b"));
+  EXPECT_EQ(dots, 2);
+}
+
 TEST(Watch, IsToldOfChanges) {
   SharedSvar tree(Svar::object({{"camera", camera(1)}, {"fps", 30}}));
   std::vector<Svar> seen;
@@ -195,6 +287,48 @@ TEST(Watch, OutlivesTheTree) {
   EXPECT_THROW(watch = SharedSvar().watch("a..b", [](const Svar&) {}), SvarError);
 }
 
+// Uses the tree as it goes.
+struct Farewell {
+  ~Farewell() { tree.set("gone", tree.get<int>("gone", 0) + 1); }
+  SharedSvar& tree;
+};
+
+TEST(SharedSvar, DestroysWhatItHeldWithoutItsLock) {
+  SharedSvar tree;
+  tree.set("object", std::shared_ptr<Farewell>(new Farewell{tree}));
+  tree.bind<std::shared_ptr<Farewell>>("object");
+  tree.set("object", std::shared_ptr<Farewell>());
+  EXPECT_EQ(tree.get<int>("gone"), 1);
+}
+
+TEST(Watch, DestroysItsCallbackWhenItEnds) {
+  SharedSvar tree;
+  gslam::Watch watch;
+  for (int i = 0; i < 3; ++i) {
+    const std::shared_ptr<Farewell> captured(new Farewell{tree});
+    watch = tree.watch("x", [captured](const Svar&) {});
+  }
+  EXPECT_EQ(tree.get<int>("gone"), 2);
+  tree.set("x", 1);
+  watch.reset();
+  EXPECT_EQ(tree.get<int>("gone"), 3);
+}
+
+TEST(Watch, MayUseAllOfTheTree) {
+  SharedSvar tree(Svar::object({{"x", 0}}));
+  std::vector<gslam::Watch> watches;
+  gslam::Watch watch = tree.watch("x", [&](const Svar& value) {
+    const int x = value.as<int>();
+    EXPECT_EQ(tree.bind<int>("bound", 7), 7 + x - 1);
+    tree.set("bound", 7 + x);
+    watches.push_back(tree.watch("bound", [](const Svar&) {}));
+    if (x == 2) watch = tree.watch("y", [](const Svar&) {});  // in place of itself
+    watches.erase(watches.begin());
+  });
+  for (int i = 1; i < 4; ++i) tree.set("x", i);
+  EXPECT_EQ(tree.get<int>("bound"), 9);
+}
+
 // --- many threads
 
 template <class Work>
@@ -244,6 +378,24 @@ TEST(SharedSvarThreads, CallBackInTheOrderOfChanges) {
   EXPECT_EQ(calls, 600);
   EXPECT_FALSE(overlapped);
   EXPECT_EQ(last, tree["x"]);
+}
+
+TEST(SharedSvarThreads, RulesMayComeWhileOthersWrite) {
+  SharedSvar tree;
+  inThreads(4, [&](int thread) {
+    for (int i = 0; i < 100; ++i) {
+      const std::string name = "n" + std::to_string(i);
+      if (thread < 2) {
+        EXPECT_GE(tree.bind<int>(name, 0).get(), 0);
+      } else {
+        tree.set(name, thread * 1000 + i);
+      }
+    }
+  });
+  for (int i = 0; i < 100; ++i) {
+    const std::string name = "n" + std::to_string(i);
+    EXPECT_EQ(tree.bind<int>(name), tree.get<int>(name));
+  }
 }
 
 TEST(SharedSvarThreads, NoCallbackRunsAfterItsWatchEnded) {

@@ -20,13 +20,18 @@ template <class T>
 struct IsAtomic : std::integral_constant<bool, std::is_same<T, bool>::value ||
                                                    IsInteger<T>::value || IsReal<T>::value> {};
 
-/// A value that one thread stores while others load it.
+/// A value that one thread stores while others load it. Storing never throws: what could is in
+/// make().
 template <class T, bool is_atomic = IsAtomic<T>::value>
 class SharedValue {
  public:
+  using Made = T;
+  static Made make(T value) noexcept { return value; }
+
   explicit SharedValue(T value) noexcept : value_(value) {}
   T load() const noexcept { return value_.load(std::memory_order_acquire); }
-  void store(T value) noexcept { value_.store(value, std::memory_order_release); }
+  /// Leaves the former value in `next`, or anything.
+  void store(Made& next) noexcept { value_.store(next, std::memory_order_release); }
 
  private:
   std::atomic<T> value_;
@@ -34,20 +39,26 @@ class SharedValue {
 template <class T>
 class SharedValue<T, false> {
  public:
-  explicit SharedValue(T value) : value_(std::move(value)) {}
+  using Made = std::shared_ptr<const T>;
+  static Made make(T value) { return std::make_shared<const T>(std::move(value)); }
+
+  explicit SharedValue(T value) : value_(make(std::move(value))) {}
   T load() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return value_;
+    Made now;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      now = value_;
+    }
+    return *now;
   }
-  void store(T value) {
+  void store(Made& next) noexcept {
     const std::lock_guard<std::mutex> lock(mutex_);
-    using std::swap;
-    swap(value_, value);
+    value_.swap(next);
   }
 
  private:
   mutable std::mutex mutex_;
-  T value_;
+  Made value_;
 };
 
 template <class T>
@@ -64,9 +75,9 @@ class SharedSvar;
 /// A variable that always has the value at one path of a SharedSvar, for loops that read it often.
 /// SharedSvar::bind() makes it.
 ///
-/// For bool and numbers reading is one atomic load; for other types it copies under a lock of its
-/// own, so ask version() first. Copies are the same variable; when the SharedSvar is gone it keeps
-/// the last value. Any number of threads may read it.
+/// For bool and numbers reading is one atomic load; for other types it takes a lock for a moment
+/// and copies, so ask version() first. Copies are the same variable; when the SharedSvar is gone it
+/// keeps the last value. Any number of threads may read it.
 template <class T>
 class Bound {
  public:
@@ -82,8 +93,9 @@ class Bound {
  private:
   friend class SharedSvar;
   explicit Bound(T initial) : state_(std::make_shared<detail::BoundState<T>>(std::move(initial))) {}
-  void store(T value) const {
-    state_->value.store(std::move(value));
+  using Made = typename detail::SharedValue<T>::Made;
+  void store(Made& next) const noexcept {
+    state_->value.store(next);
     state_->version.fetch_add(1, std::memory_order_release);
   }
 

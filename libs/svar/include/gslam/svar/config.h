@@ -98,13 +98,20 @@ class Config : public SharedSvar {
   struct Source;
 
   template <class T>
-  detail::Parameter& declare(const std::string& name, const std::string& help);
+  std::unique_ptr<detail::Parameter> declared(const std::string& name,
+                                              const std::string& help) const;
+  detail::Parameter& add(std::unique_ptr<detail::Parameter> parameter,
+                         std::unique_ptr<detail::ParameterRule> rule);
   void readFile(const std::string& path, Source& source) const;
   void readEnvironment(Source& source) const;
   void listFileValues(const Svar& part, const std::string& name, Source& source) const;
-  void lay(const Source& source, Svar& over) const;
-  void takeOver(const std::vector<Source>& sources);
-  void checkRequired() const;
+  [[noreturn]] void failUnknown(const std::string& path, const Source& source) const;
+  void lay(const Source& source, Svar& tree) const;
+  [[noreturn]] static void fail(const detail::Given& one, const Source& source,
+                                const SvarError& error);
+  static void failBound(const std::vector<Source>& sources, const SvarError& error);
+  void takeOver(const std::vector<Source>& sources, bool all_must_be_there);
+  void checkRequired(const Svar& tree) const;
   std::string programName() const;
   std::string originOf(const detail::Parameter& parameter, const Svar& tree) const;
 
@@ -120,13 +127,13 @@ template <class T>
 class Config::Argument {
  public:
   /// Only values from low to high, both included, are taken.
-  /// @throws SvarError when the default is not among them
+  /// @throws SvarError when the default, or the value it has already, is not among them
   Argument& range(const T& low, const T& high) {
     parameter_->rule->setRange<T>(low, high);
     return checked();
   }
   /// Only these values are taken.
-  /// @throws SvarError when the default is none of them
+  /// @throws SvarError when the default, or the value it has already, is none of them
   Argument& choices(const std::vector<T>& values) {
     parameter_->rule->setChoices(Svar(values));
     return checked();
@@ -144,10 +151,7 @@ class Config::Argument {
   friend class Config;
   Argument(Config& config, detail::Parameter& parameter)
       : config_(&config), parameter_(&parameter) {}
-  Argument& checked() {
-    if (!parameter_->is_required) parameter_->rule->check(parameter_->default_value);
-    return *this;
-  }
+  Argument& checked();
 
   Config* config_;
   detail::Parameter* parameter_;

@@ -19,6 +19,13 @@ namespace gslam {
 inline namespace v1 {
 namespace detail {
 
+/// What a rule does once a value that it allowed is there. Destroyed when no lock is held.
+class SvarTaking {
+ public:
+  virtual ~SvarTaking() = default;
+  virtual void take() noexcept = 0;
+};
+
 /// What must hold of the value at one path.
 class SvarRule {
  public:
@@ -27,10 +34,9 @@ class SvarRule {
   virtual ~SvarRule() = default;
   const std::string& path() const noexcept { return path_; }
   bool mayBeMissing() const noexcept { return presence_ == may_be_missing; }
+  /// What to do once the value is there; null for nothing.
   /// @throws SvarError where the value may not be there
-  virtual void check(const Svar& value) const = 0;
-  /// The value passed the check and is there now.
-  virtual void take(const Svar&) {}
+  virtual std::unique_ptr<SvarTaking> check(const Svar& value) const = 0;
 
  private:
   const std::string path_;
@@ -47,8 +53,9 @@ class SvarRule {
 /// copying one handle takes; writing takes time in proportion to the size of the objects on the
 /// way, and to the number of bound variables.
 ///
-/// All functions may be called by any threads at any time, also from callbacks. Each change is
-/// seen as a whole or not at all. Paths, conversions and errors are those of Svar.
+/// All functions may be called by any threads at any time, also from callbacks; but not from the
+/// SvarTraits<T>::fromSvar() of a bound type T, which runs under the lock. Each change is seen as a
+/// whole or not at all. Paths, conversions and errors are those of Svar.
 class SharedSvar {
  public:
   /// An empty object.
@@ -97,7 +104,9 @@ class SharedSvar {
   /// @throws SvarError when nothing stands there or it is not exactly a T
   template <class T>
   const Bound<T>& bind(detail::Text path);
-  /// The same; puts `initial` there where nothing is.
+  /// The same; puts `initial` there where nothing is, in one step.
+  /// @throws SvarError when what stands there is not exactly a T, or nothing can be put there;
+  ///         nothing is changed then
   template <class T>
   const Bound<T>& bind(detail::Text path, const typename std::common_type<T>::type& initial);
 
@@ -115,11 +124,26 @@ class SharedSvar {
   GSLAM_NODISCARD Watch watch(detail::Text path, F callback);
 
  protected:
+  /// The next tree while it is made. What it holds at the end is destroyed when the lock is
+  /// released, for objects of the program may use the SharedSvar as they go.
+  struct Change {
+    Svar root;  // as it is now, then as it is to be, at the end as it was
+    std::unique_ptr<detail::SvarRule> rule;  // from now on
+    std::vector<std::unique_ptr<detail::SvarTaking>> takings;
+    std::vector<std::shared_ptr<detail::Watcher>> watchers;
+  };
+
+  /// Lets `make` change change.root and change.rule under the lock and makes it so; callbacks wait
+  /// for callBack().
+  /// @throws SvarError when a rule refuses, and what `make` throws; nothing is changed then
+  template <class Make>
+  void apply(Make make);
+  /// Runs the callbacks that wait, unless somebody is at it.
+  void callBack();
   /// From now on the value at the path of the rule must keep to it.
-  /// @throws SvarError when what is there does not, or nothing is there that must be
-  void addRule(std::unique_ptr<detail::SvarRule> rule);
-  /// The same; puts `initial` there where nothing is.
-  void addRule(std::unique_ptr<detail::SvarRule> rule, const Svar& initial);
+  /// @param initial  put there where nothing is; may be null
+  /// @throws SvarError when what is there does not; nothing is changed then
+  void addRule(std::unique_ptr<detail::SvarRule> rule, const Svar* initial);
 
  private:
   template <class T>
@@ -129,13 +153,17 @@ class SharedSvar {
     Svar value;
   };
 
-  template <class MakeNext>
-  void change(MakeNext make_next);
+  template <class Make>
+  void change(Make make);
   static Svar with(const Svar& root, detail::Text path, const Svar& value);
-  void commit(const Svar& next);
+  void commit(Change& change);
   static const Svar* find(const Svar& root, const std::string& path);
-  void listCalls(const Svar& before, const Svar& after);
-  void callBack();
+  template <class T>
+  const Bound<T>& bindOver(detail::Text path, const Svar* initial);
+  template <class T>
+  const Bound<T>* findBound(const std::string& path) const;
+  std::vector<std::shared_ptr<detail::Watcher>> watchersAlive() const;
+  std::vector<Call> callsFor(const Change& change) const;
   static std::exception_ptr callAll(const std::vector<Call>& calls);
 
   mutable std::mutex mutex_;  // guards all below

@@ -25,20 +25,21 @@ class Watcher {
 
   void call(const Svar& value) {
     const std::lock_guard<std::recursive_mutex> lock(mutex_);
-    if (active_) callback_(value);
+    const Svar callback = callback_;  // which may end itself while it runs
+    if (!callback.isNull()) callback(value);
   }
 
   /// Waits for a call that another thread is in; may be called from the callback itself.
   void stop() {
+    Svar ended;  // goes when the lock is released, with what it captured
     const std::lock_guard<std::recursive_mutex> lock(mutex_);
-    active_ = false;
+    ended.swap(callback_);
   }
 
  private:
   const std::string path_;
-  const Svar callback_;  // a function
-  std::recursive_mutex mutex_;
-  bool active_ = true;
+  std::recursive_mutex mutex_;  // guards what follows
+  Svar callback_;               // a function, or null when it was stopped
 };
 
 }  // namespace detail
@@ -60,8 +61,8 @@ class Watch {
     return *this;
   }
 
-  /// From its return on the callback does not run any more. Waits for the callback if another
-  /// thread is in it, so do not call this while you hold a lock that the callback takes.
+  /// From its return on the callback does not run any more and is destroyed. Waits for the callback
+  /// if another thread is in it, so do not call this while you hold a lock that the callback takes.
   void reset() {
     if (watcher_ != nullptr) watcher_->stop();
     watcher_.reset();

@@ -28,7 +28,7 @@ inline std::string choicesForBash(const Parameter& parameter) {
   std::string list;
   for (const Svar& choice : parameter.rule->choices()) {
     const bool text = choice.type() == SvarType::string;
-    list += (text ? choice.as<std::string>() : printJson(choice)) + "\n";
+    list += (text ? choice.as<std::string>() : textOfValue(choice)) + "\n";
   }
   return list;
 }
@@ -41,7 +41,9 @@ inline std::string bashCompletionScript(const std::string& program, const Parame
     if (one->is_bool) names += "--no-" + one->name + "\n";
     const std::string choices = choicesForBash(*one);
     if (choices.empty()) continue;
-    cases += "    --" + one->name + ") words=" + quotedForBash(choices) + " ;;\n";
+    const std::string& letter = one->short_name;
+    cases += "    --" + one->name + (letter.empty() ? "" : "|-" + letter) +
+             ") words=" + quotedForBash(choices) + " ;;\n";
   }
   std::string function = "_";
   for (const char c : program) function.push_back(isLetter(c) || isDigit(c) ? c : '_');

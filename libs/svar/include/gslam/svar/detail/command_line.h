@@ -14,14 +14,6 @@ namespace gslam {
 inline namespace v1 {
 namespace detail {
 
-/// A value that was given, and how errors call the place where it was.
-struct Given {
-  Parameter* parameter;
-  std::string path;  // the parameter's name, or a place inside of it
-  Svar value;
-  std::string place;
-};
-
 /// Reads arguments; the members say what was found.
 class CommandLineReader {
  public:
@@ -104,6 +96,7 @@ class CommandLineReader {
     if (equals == std::string::npos || !isParameterName(argument.substr(0, equals))) return false;
     Word word = {argument.substr(0, equals), argument.substr(0, equals), true,
                  argument.substr(equals + 1)};
+    if (readBuiltIn(word)) return true;
     Parameter* const parameter = findParameter(parameters_, word.name);
     if (parameter != nullptr) {
       take(*parameter, parameter->name, word);
@@ -145,7 +138,7 @@ class CommandLineReader {
     Parameter* const parameter = findOpenParameter(parameters_, word.name);
     if (parameter == nullptr) return false;
     if (!isParameterName(word.name)) throw ConfigError(word.as_written, "is no name");
-    take(*parameter, word.name, word);
+    take(*parameter, pathInside(*parameter, word.name), word);
     return true;
   }
 

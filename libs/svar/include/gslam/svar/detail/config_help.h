@@ -70,6 +70,10 @@ class HelpTable {
       out += "\n" + group.name + ":\n";
       for (const std::pair<std::string, std::string>& line : group.lines) {
         out += "  " + line.first;
+        if (line.second.empty()) {
+          out += "\n";
+          continue;
+        }
         std::size_t at = 2 + characterCount(line.first);
         if (at + 2 > column) {  // too long: the explanation begins on the next line
           out += "\n";
@@ -114,6 +118,11 @@ inline std::string parameterUsage(const Parameter& parameter) {
   return parameter.is_open ? text + ", --" + parameter.name + ".NAME VALUE" : text;
 }
 
+/// Whether it is a null, or an array or object with nothing in it.
+inline bool isEmpty(const Svar& value) {
+  return value.isNull() || (value.type() >= SvarType::array && value.size() == 0);
+}
+
 /// "frames a second (1 to 120; default 30; now 25 from GSLAM_FPS)"
 inline std::string parameterHelp(const Parameter& parameter, const Svar& tree,
                                  const std::string& origin) {
@@ -124,13 +133,15 @@ inline std::string parameterHelp(const Parameter& parameter, const Svar& tree,
   };
   if (parameter.is_required) {
     add("required");
-  } else if (!parameter.is_open || parameter.default_value.size() != 0) {
+  } else if (!isEmpty(parameter.default_value)) {
     add("default " + textOfValue(parameter.default_value));
   }
-  if (now != nullptr && (parameter.is_required || *now != parameter.default_value)) {
+  if (now != nullptr &&
+      (parameter.is_required || !SvarParts::same(*now, parameter.default_value))) {
     add("now " + textOfValue(*now) + " from " + origin);
   }
-  return parameter.help + (facts.empty() ? "" : " (" + facts + ")");
+  if (facts.empty()) return parameter.help;
+  return parameter.help + (parameter.help.empty() ? "(" : " (") + facts + ")";
 }
 
 }  // namespace detail

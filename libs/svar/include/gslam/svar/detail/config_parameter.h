@@ -28,7 +28,7 @@ inline std::string textOfValue(const Svar& value) {
 }
 
 /// What stands for a value of that type in the help: "INT32", "DOUBLE,..."
-template <class T, bool is_sequence = IsSequence<T>::value>
+template <class T, bool is_list = IsList<T>::value>
 struct Placeholder {
   static std::string text() {
     std::string name = std::is_same<T, Svar>::value ? "value" : svarTypeName<T>();
@@ -49,7 +49,7 @@ class ParameterRule : public SvarRule {
     return std::unique_ptr<ParameterRule>(new ParameterRule(path, presence, &convert<T>));
   }
 
-  void check(const Svar& value) const override {
+  std::unique_ptr<SvarTaking> check(const Svar& value) const override {
     Svar converted;
     try {
       converted = convert_(value);
@@ -59,7 +59,7 @@ class ParameterRule : public SvarRule {
     const bool good = is_inside_ == nullptr || is_inside_(value, low_, high_);
     bool chosen = choices_.size() == 0;
     for (const Svar& choice : choices_) chosen = chosen || choice == converted;
-    if (good && chosen) return;
+    if (good && chosen) return nullptr;
     throw SvarError(path(), "expected " + limits() + ", found " + SvarParts::describe(value));
   }
 
@@ -122,6 +122,14 @@ struct Parameter {
   Svar given;  // what came from there
 };
 
+/// A value that was given, and how errors call the place where it was.
+struct Given {
+  Parameter* parameter;
+  std::string path;  // the parameter's name, or a place inside of it
+  Svar value;
+  std::string place;
+};
+
 /// All parameters in the order of their declaration.
 using Parameters = std::vector<std::unique_ptr<Parameter>>;
 
@@ -150,25 +158,47 @@ inline std::string withUnderscores(std::string name) {
   return name;
 }
 
+/// Whether the name begins with the other, be it with - or _.
+inline bool beginsWithName(const std::string& name, const std::string& other) noexcept {
+  if (name.size() < other.size()) return false;
+  for (std::size_t i = 0; i < other.size(); ++i) {
+    const bool dashes = (name[i] == '-' || name[i] == '_') && (other[i] == '-' || other[i] == '_');
+    if (name[i] != other[i] && !dashes) return false;
+  }
+  return true;
+}
+
+/// Whether both mean the same parameter.
+inline bool sameName(const std::string& a, const std::string& b) noexcept {
+  return a.size() == b.size() && beginsWithName(a, b);
+}
+
+/// Whether the name is that of a place inside of the other, as camera.fx is inside of camera.
+inline bool liesInside(const std::string& name, const std::string& other) noexcept {
+  return name.size() > other.size() && name[other.size()] == '.' && beginsWithName(name, other);
+}
+
 /// Null where no parameter has that name.
-inline Parameter* findParameter(const Parameters& parameters, const std::string& name) {
-  const std::string wanted = withUnderscores(name);
+inline Parameter* findParameter(const Parameters& parameters, const std::string& name) noexcept {
   for (const std::unique_ptr<Parameter>& one : parameters) {
-    if (withUnderscores(one->name) == wanted ||
-        (!one->short_name.empty() && one->short_name == name)) {
-      return one.get();
-    }
+    const bool is_short = !one->short_name.empty() && sameName(one->short_name, name);
+    if (is_short || sameName(one->name, name)) return one.get();
   }
   return nullptr;
 }
 
 /// The open parameter that the name lies in, such as slam for slam.features, or null.
-inline Parameter* findOpenParameter(const Parameters& parameters, const std::string& name) {
+inline Parameter* findOpenParameter(const Parameters& parameters,
+                                    const std::string& name) noexcept {
   for (const std::unique_ptr<Parameter>& one : parameters) {
-    if (one->is_open && name.compare(0, one->name.size() + 1, one->name + ".") == 0)
-      return one.get();
+    if (one->is_open && liesInside(name, one->name)) return one.get();
   }
   return nullptr;
+}
+
+/// The same name with that of the open parameter as it was declared.
+inline std::string pathInside(const Parameter& open, const std::string& name) {
+  return open.name + name.substr(open.name.size());
 }
 
 }  // namespace detail

@@ -5,6 +5,8 @@
 #include <gslam/svar/detail/svar_parts.h>
 #include <gslam/svar/shared.h>
 
+#include <cmath>
+
 namespace gslam {
 inline namespace v1 {
 namespace detail {
@@ -33,35 +35,85 @@ inline void SvarParts::seal(const Svar& value) {
   }
 }
 
+inline bool SvarParts::same(const Svar& a, const Svar& b) {
+  std::vector<std::pair<const Svar*, const Svar*>> todo(1, {&a, &b});
+  while (!todo.empty()) {
+    const Svar& one = *todo.back().first;
+    const Svar& other = *todo.back().second;
+    todo.pop_back();
+    if (one.type() != other.type()) return false;
+    if (one.type() == SvarType::real) {
+      const bool both_nan = std::isnan(real(one)) && std::isnan(real(other));
+      const bool same_sign = std::signbit(real(one)) == std::signbit(real(other));
+      if (!both_nan && !(one == other && same_sign)) return false;
+    } else if (!one.isContainer() || one.data_ == other.data_) {
+      if (one != other) return false;
+    } else if (one.size() != other.size()) {
+      return false;
+    } else if (one.type() == SvarType::array) {
+      for (std::size_t i = 0; i < one.size(); ++i) {
+        todo.emplace_back(&elements(one)[i], &elements(other)[i]);
+      }
+    } else {
+      for (const Svar::Member& part : members(one)) {
+        const Svar* const there = member(other, part.first);
+        if (there == nullptr) return false;
+        todo.emplace_back(&part.second, there);
+      }
+    }
+  }
+  return true;
+}
+
+/// Makes room for that many more, at least doubling, so that putting them there cannot fail.
+template <class T>
+void makeRoom(std::vector<T>& list, std::size_t count) {
+  const std::size_t needed = list.size() + count;
+  if (needed <= list.capacity()) return;
+  list.reserve(needed < 2 * list.capacity() ? 2 * list.capacity() : needed);
+}
+
 }  // namespace detail
 
 // --- changing
 
-// Makes the next tree of the present one under the lock, then calls back without it.
-template <class MakeNext>
-void SharedSvar::change(MakeNext make_next) {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    commit(make_next(root_));
-  }
+template <class Make>
+void SharedSvar::apply(Make make) {
+  Change change;  // before the lock, so that it outlives it
+  const std::lock_guard<std::mutex> lock(mutex_);
+  change.root = root_;
+  make(change);
+  commit(change);
+}
+
+template <class Make>
+void SharedSvar::change(Make make) {
+  apply(std::move(make));
   callBack();
 }
 
-// All rules are asked before anything changes.
-inline void SharedSvar::commit(const Svar& next) {
-  std::vector<std::pair<detail::SvarRule*, const Svar*>> changed;
+// All rules are asked, and all memory is there, before anything changes.
+inline void SharedSvar::commit(Change& change) {
   for (const std::unique_ptr<detail::SvarRule>& rule : rules_) {
     const Svar* const before = find(root_, rule->path());
-    const Svar* const after = find(next, rule->path());
+    const Svar* const after = find(change.root, rule->path());
     if (after == nullptr && rule->mayBeMissing()) continue;
     if (after == nullptr) throw SvarError(rule->path(), "cannot be removed: it is in use");
-    if (before != nullptr && *before == *after) continue;
-    rule->check(*after);
-    changed.emplace_back(rule.get(), after);
+    if (before != nullptr && detail::SvarParts::same(*before, *after)) continue;
+    change.takings.push_back(rule->check(*after));
   }
-  listCalls(root_, next);
-  root_ = next;
-  for (const auto& one : changed) one.first->take(*one.second);
+  change.watchers = watchersAlive();
+  std::vector<Call> calls = callsFor(change);
+  detail::makeRoom(calls_, calls.size());
+  detail::makeRoom(rules_, 1);
+
+  root_.swap(change.root);
+  watchers_.swap(change.watchers);
+  for (Call& call : calls) calls_.push_back(std::move(call));
+  if (change.rule != nullptr) rules_.push_back(std::move(change.rule));
+  for (const std::unique_ptr<detail::SvarTaking>& one : change.takings) {
+    if (one != nullptr) one->take();
+  }
 }
 
 // The tree with another value, which must be frozen, at the path.
@@ -74,20 +126,20 @@ inline Svar SharedSvar::with(const Svar& root, detail::Text path, const Svar& va
 
 inline void SharedSvar::set(detail::Text path, const Svar& value) {
   const Svar frozen = value.frozen();
-  change([&](const Svar& root) { return with(root, path, frozen); });
+  change([&](Change& made) { made.root = with(made.root, path, frozen); });
 }
 
 inline void SharedSvar::merge(const Svar& over) {
-  change([&](const Svar& root) { return root.merged(over).frozen(); });
+  change([&](Change& made) { made.root = made.root.merged(over).frozen(); });
 }
 
 inline bool SharedSvar::erase(detail::Text path) {
   bool erased = false;
-  change([&](const Svar& root) {
-    Svar next = detail::SvarParts::thawed(root, path);
+  change([&](Change& made) {
+    Svar next = detail::SvarParts::thawed(made.root, path);
     erased = next.erase(path);
     detail::SvarParts::seal(next);
-    return next;
+    made.root = next;
   });
   return erased;
 }
@@ -103,55 +155,75 @@ class SharedSvar::BoundRule : public detail::SvarRule {
  public:
   BoundRule(const std::string& path, const Bound<T>& variable)
       : SvarRule(path, must_be_there), variable_(variable) {}
-  void check(const Svar& value) const override { convert(value); }
-  void take(const Svar& value) override { variable_.store(convert(value)); }
+  std::unique_ptr<detail::SvarTaking> check(const Svar& value) const override {
+    return std::unique_ptr<detail::SvarTaking>(
+        new Taking(variable_, detail::partAs<T>(value, path())));
+  }
   const Bound<T>& variable() const noexcept { return variable_; }
 
  private:
-  T convert(const Svar& value) const { return detail::partAs<T>(value, path()); }
-  Bound<T> variable_;
+  class Taking : public detail::SvarTaking {
+   public:
+    Taking(const Bound<T>& variable, T next)
+        : variable_(variable), next_(detail::SharedValue<T>::make(std::move(next))) {}
+    void take() noexcept override { variable_.store(next_); }
+
+   private:
+    const Bound<T> variable_;
+    typename Bound<T>::Made next_;  // then what was there before
+  };
+
+  const Bound<T> variable_;
 };
 
 template <class T>
 const Bound<T>& SharedSvar::bind(detail::Text path) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const std::string name = path.str();
-  for (const std::unique_ptr<detail::SvarRule>& rule : rules_) {
-    BoundRule<T>* const same = dynamic_cast<BoundRule<T>*>(rule.get());
-    if (same != nullptr && same->path() == name) return same->variable();
-  }
-  const Bound<T> variable(root_.get<T>(path));
-  std::unique_ptr<BoundRule<T>> rule(new BoundRule<T>(name, variable));
-  const Bound<T>& result = rule->variable();
-  rules_.push_back(std::move(rule));
-  return result;
+  return bindOver<T>(path, nullptr);
 }
 
 template <class T>
 const Bound<T>& SharedSvar::bind(detail::Text path,
                                  const typename std::common_type<T>::type& initial) {
   const Svar value = Svar(initial).frozen();
-  change([&](const Svar& root) { return root.contains(path) ? root : with(root, path, value); });
-  return bind<T>(path);
+  return bindOver<T>(path, &value);
 }
 
-inline void SharedSvar::addRule(std::unique_ptr<detail::SvarRule> rule) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const Svar* const there = find(root_, rule->path());
-  if (there != nullptr) rule->check(*there);
-  if (there == nullptr && !rule->mayBeMissing()) root_.get<Svar>(rule->path());  // throws
-  rules_.push_back(std::move(rule));
+template <class T>
+const Bound<T>& SharedSvar::bindOver(detail::Text path, const Svar* initial) {
+  const Bound<T>* bound = nullptr;
+  change([&](Change& made) {
+    bound = findBound<T>(path.str());
+    if (bound != nullptr) return;
+    if (initial != nullptr && !made.root.contains(path)) {
+      made.root = with(made.root, path, *initial);
+    }
+    const Bound<T> variable(made.root.get<T>(path));
+    std::unique_ptr<BoundRule<T>> rule(new BoundRule<T>(path.str(), variable));
+    bound = &rule->variable();
+    made.rule = std::move(rule);
+  });
+  return *bound;
 }
 
-inline void SharedSvar::addRule(std::unique_ptr<detail::SvarRule> rule, const Svar& initial) {
-  const std::string path = rule->path();
-  const Svar value = initial.frozen();
-  change([&](const Svar& root) {
-    const Svar* const there = find(root, path);
-    rule->check(there != nullptr ? *there : value);
-    Svar next = there != nullptr ? root : with(root, path, value);
-    rules_.push_back(std::move(rule));
-    return next;
+template <class T>
+const Bound<T>* SharedSvar::findBound(const std::string& path) const {
+  for (const std::unique_ptr<detail::SvarRule>& rule : rules_) {
+    const BoundRule<T>* const same = dynamic_cast<const BoundRule<T>*>(rule.get());
+    if (same != nullptr && same->path() == path) return &same->variable();
+  }
+  return nullptr;
+}
+
+inline void SharedSvar::addRule(std::unique_ptr<detail::SvarRule> rule, const Svar* initial) {
+  const Svar value = initial != nullptr ? initial->frozen() : Svar();
+  change([&](Change& made) {
+    const std::string& path = rule->path();
+    if (initial != nullptr && find(made.root, path) == nullptr) {
+      made.root = with(made.root, path, value);
+    }
+    const Svar* const there = find(made.root, path);
+    if (there != nullptr) rule->check(*there);
+    made.rule = std::move(rule);
   });
 }
 
@@ -162,22 +234,35 @@ Watch SharedSvar::watch(detail::Text path, F callback) {
   snapshot().contains(path);  // refuses a malformed path
   const std::shared_ptr<detail::Watcher> watcher =
       std::make_shared<detail::Watcher>(path.str(), Svar::function(std::move(callback)));
+  std::vector<std::shared_ptr<detail::Watcher>> former;  // destroyed without the lock
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (watchers_.size() == watchers_.capacity()) {
+    former = watchersAlive();
+    watchers_.swap(former);
+  }
   watchers_.push_back(watcher);
   return Watch(watcher);
 }
 
-inline void SharedSvar::listCalls(const Svar& before, const Svar& after) {
+// Those whose Watch is there still.
+inline std::vector<std::shared_ptr<detail::Watcher>> SharedSvar::watchersAlive() const {
   std::vector<std::shared_ptr<detail::Watcher>> alive;
   for (const std::shared_ptr<detail::Watcher>& watcher : watchers_) {
-    if (watcher.use_count() == 1) continue;  // its Watch is gone
-    alive.push_back(watcher);
-    const Svar* const was = find(before, watcher->path());
-    const Svar* const is = find(after, watcher->path());
-    if (was == is || (was != nullptr && is != nullptr && *was == *is)) continue;
-    calls_.push_back({watcher, is != nullptr ? *is : Svar()});
+    if (watcher.use_count() > 1) alive.push_back(watcher);
   }
-  watchers_.swap(alive);
+  return alive;
+}
+
+inline std::vector<SharedSvar::Call> SharedSvar::callsFor(const Change& change) const {
+  std::vector<Call> calls;
+  for (const std::shared_ptr<detail::Watcher>& watcher : change.watchers) {
+    const Svar* const was = find(root_, watcher->path());
+    const Svar* const is = find(change.root, watcher->path());
+    if (was == is) continue;
+    if (was != nullptr && is != nullptr && detail::SvarParts::same(*was, *is)) continue;
+    calls.push_back({watcher, is != nullptr ? *is : Svar()});
+  }
+  return calls;
 }
 
 inline void SharedSvar::callBack() {

@@ -59,6 +59,8 @@ struct SvarParts {
   static Svar thawed(const Svar& value, Text path);
   /// Freezes what is not frozen in place: what is new, so that nobody else can see it yet.
   static void seal(const Svar& value);
+  /// As ==, but a NaN is the same as a NaN, and 0.0 is not -0.0.
+  static bool same(const Svar& a, const Svar& b);
   /// What stands at the path, or null.
   static const Svar* find(const Svar& value, Text path) { return value.find(path); }
 };

@@ -86,6 +86,10 @@ template <class T>
 struct IsSequence : std::integral_constant<bool, HasElements<T>::value && !IsMap<T>::value &&
                                                      !IsTuple<T>::value> {};
 
+/// Elements of one type in a row, as many as the type says or any number.
+template <class T>
+struct IsList : std::integral_constant<bool, HasElements<T>::value && !IsMap<T>::value> {};
+
 template <class T, class = void>
 struct IsOptional : std::false_type {};
 template <class T>

@@ -86,7 +86,7 @@ struct ValueOfText<Svar> {
 };
 /// JSON, or elements with commas between them.
 template <class T>
-struct ValueOfText<T, typename std::enable_if<IsSequence<T>::value>::type> {
+struct ValueOfText<T, typename std::enable_if<IsList<T>::value>::type> {
   static Svar read(const std::string& text) {
     if (!text.empty() && text[0] == '[') return valueOfJson(text, svarTypeName<T>());
     Svar list = Svar::array();
