@@ -72,7 +72,9 @@ struct SvarTraits {};
 ///
 /// **Writing** goes through set(), push_back() and erase(), never through references: reading
 /// creates nothing, and an array or object that would contain itself is refused. So comparing,
-/// cloning and destroying always end, and none of them recurses, however deep the value is.
+/// cloning and destroying always end, and none of them recurses, however deep the value is. What a
+/// function captures and a native object holds is not looked into: a function that captures the
+/// object it stands in keeps it alive for good.
 ///
 /// **Paths** name what is inside: "camera.0.fx" or "camera/0/fx" is member "fx" of element 0 of
 /// member "camera". A path with a slash anywhere is split at slashes only, and is a JSON pointer
