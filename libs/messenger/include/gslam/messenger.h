@@ -4,6 +4,7 @@
 /// @file
 /// All of GSLAM::messenger.
 
+#include <gslam/messenger/default_messenger.h>
 #include <gslam/messenger/messenger.h>
 #include <gslam/messenger/publisher.h>
 #include <gslam/messenger/subscriber.h>

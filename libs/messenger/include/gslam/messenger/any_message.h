@@ -52,7 +52,7 @@ class AnyMessage {
 
  private:
   std::shared_ptr<const std::string> topic_;
-  detail::PayloadType type_ = {&typeid(void), 0, 0};
+  detail::PayloadType type_ = {&typeid(void), 0, 0, false};
   std::shared_ptr<const void> message_;
 };
 

@@ -22,6 +22,32 @@ class GSLAM_PUBLIC TypeMismatch : public Error {
       : Error("topic " + topic + " carries " + has + ", not " + asked) {}
 };
 
+/// A service that gave no answer.
+class GSLAM_PUBLIC ServiceError : public Error {
+ public:
+  /// Why there is none.
+  enum Reason {
+    unavailable,  ///< nobody serves it
+    timeout,      ///< the answer did not come in time
+    dropped       ///< the call was dropped: its server ended, or its queue was full
+  };
+
+  /// @param service  its name
+  /// @param reason   why there is no answer
+  ServiceError(const std::string& service, Reason reason)
+      : Error("service " + service + " gave no answer: " +
+              (reason == unavailable ? "nobody serves it"
+               : reason == timeout   ? "it did not come in time"
+                                     : "the call was dropped by its server")),
+        reason_(reason) {}
+
+  /// Why there is none.
+  Reason reason() const noexcept { return reason_; }
+
+ private:
+  Reason reason_;
+};
+
 }  // namespace v1
 }  // namespace gslam
 

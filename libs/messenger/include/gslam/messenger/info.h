@@ -29,9 +29,24 @@ struct TopicInfo {
   std::size_t type_size;                     ///< of the type itself, in bytes
   std::size_t publishers;                    ///< handles that were advertised and are still there
   std::uint64_t messages;                    ///< published since the topic was made
+  std::uint64_t bytes;                       ///< of all these; 0 for types that point elsewhere
   bool is_latched;                           ///< whether the last one is kept
   std::vector<SubscriberInfo> subscribers;   ///< in the order of subscribing
   std::chrono::steady_clock::time_point at;  ///< when this was true
+};
+
+/// What has changed among the topics of a messenger, which says so on the topic
+/// "/messenger/changes":
+///
+///     messenger.subscribe<TopicChange>("/messenger/changes", show);
+///
+/// It is said in the thread that made the change, after it.
+struct TopicChange {
+  /// What can change.
+  enum Kind { publisher_came, publisher_left, subscriber_came, subscriber_left };
+  Kind kind;          ///< what has changed
+  std::string topic;  ///< where
+  std::string type;   ///< of its messages, as C++ calls it
 };
 
 /// Messages a second between two moments of one topic; 0 where no time passed.

@@ -10,6 +10,7 @@
 #include <gslam/messenger/publisher.h>
 #include <gslam/messenger/subscriber.h>
 
+#include <chrono>
 #include <map>
 #include <memory>
 #include <string>
@@ -100,6 +101,38 @@ class Messenger {
   template <class T>
   GSLAM_NODISCARD Inbox<T> inbox(const std::string& topic,
                                  const SubscribeOptions& options = SubscribeOptions()) const;
+
+  /// Answers calls of a service with `handler(const Request&)`, which gives a Response; in the
+  /// caller's thread, or as the options say. There is one server of a service at a time.
+  /// @return the handle with which the service ends
+  /// @throws ArgumentError for an empty handler, an impossible name or a service that is served
+  ///         already, TypeMismatch when it has other types
+  template <class Request, class Response, class Handler>
+  GSLAM_NODISCARD Subscriber serve(const std::string& service, const SubscribeOptions& options,
+                                   Handler handler) const;
+  /// The same, in the caller's thread.
+  template <class Request, class Response, class Handler>
+  GSLAM_NODISCARD Subscriber serve(const std::string& service, Handler handler) const {
+    return serve<Request, Response>(service, SubscribeOptions(), std::move(handler));
+  }
+
+  /// Asks a service and waits for the answer. A service that answers in the caller's thread takes
+  /// as long as it takes; the timeout is for others.
+  /// @throws ServiceError when nobody serves it, or gives no answer in time; what the handler
+  /// threw;
+  ///         TypeMismatch and ArgumentError as advertise()
+  template <class Request, class Response, class Rep, class Period>
+  Response call(const std::string& service, Request request,
+                const std::chrono::duration<Rep, Period>& timeout) const;
+
+  /// Whether somebody serves it now.
+  bool hasService(const std::string& service) const;
+
+  /// Ends all subscriptions and services, also those that are kept; from then on publishing reaches
+  /// nobody, and nothing new can be joined (an Error). What callbacks publish while queues are
+  /// drained reaches those who have not ended yet.
+  /// @param pending  what becomes of messages that wait in queues
+  void shutDown(Pending pending) const { hub_->shutDown(pending); }
 
   /// Gets what callbacks throw, in the thread where they do, from now on; the log gets it where no
   /// handler is set, or the handler throws it on.

@@ -62,8 +62,12 @@ class Publisher {
   struct Link {
     explicit Link(std::shared_ptr<detail::Topic> its_topic) : topic(std::move(its_topic)) {
       ++topic->publisher_count;
+      topic->tell(TopicChange::publisher_came);
     }
-    ~Link() { --topic->publisher_count; }
+    ~Link() {
+      --topic->publisher_count;
+      topic->tell(TopicChange::publisher_left);
+    }
     Link(const Link&) = delete;
     Link& operator=(const Link&) = delete;
     const std::shared_ptr<detail::Topic> topic;

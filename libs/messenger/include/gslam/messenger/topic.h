@@ -4,6 +4,7 @@
 #include <gslam/messenger/detail/payload_type.h>
 #include <gslam/messenger/detail/read_mostly.h>
 #include <gslam/messenger/detail/subscription.h>
+#include <gslam/messenger/info.h>
 
 #include <atomic>
 #include <cstddef>
@@ -25,9 +26,12 @@ class Topic {
  public:
   using List = std::vector<std::shared_ptr<Subscription>>;
 
-  Topic(const std::string& name, PayloadType type, std::shared_ptr<ErrorSink> errors)
+  /// @param changes  the topic that tells of changes; null for that topic itself
+  Topic(const std::string& name, PayloadType type, std::shared_ptr<ErrorSink> errors,
+        const std::shared_ptr<Topic>& changes)
       : facts_{std::make_shared<const std::string>(name), type},
         errors_(std::move(errors)),
+        changes_(changes),
         list_(List()) {}
 
   const std::string& name() const noexcept { return *facts_.name; }
@@ -36,8 +40,9 @@ class Topic {
 
   /// A topic may lose its last owner in one of its own callbacks: it then ends after them.
   static std::shared_ptr<Topic> make(const std::string& name, PayloadType type,
-                                     std::shared_ptr<ErrorSink> errors) {
-    std::unique_ptr<Topic> made(new Topic(name, type, std::move(errors)));
+                                     std::shared_ptr<ErrorSink> errors,
+                                     const std::shared_ptr<Topic>& changes) {
+    std::unique_ptr<Topic> made(new Topic(name, type, std::move(errors), changes));
     return std::shared_ptr<Topic>(made.release(), [](Topic* topic) {
       std::shared_ptr<void> owner(topic, [](void* last) { delete static_cast<Topic*>(last); });
       Delivering::destroyLater(std::move(owner));
@@ -73,6 +78,17 @@ class Topic {
     }
   }
 
+  /// Adds the one who answers; false where there is one already.
+  bool addOnly(const std::shared_ptr<Subscription>& subscription) {
+    bool added = false;
+    list_.replace([&](const List& list) {
+      added = list.empty();
+      return added ? List(1, subscription) : list;
+    });
+    if (added) ++subscription->places;
+    return added;
+  }
+
   /// Publishers that are delivering just now may still reach it.
   void remove(const std::shared_ptr<Subscription>& subscription) {
     bool was_there = false;
@@ -90,6 +106,15 @@ class Topic {
   /// Waits for the publishers that are delivering just now; not in a callback.
   void waitForPublishers() {
     if (!Delivering::isHere()) list_.waitForReaders();
+  }
+
+  /// Tells those who want to know.
+  void tell(TopicChange::Kind kind) const {
+    const std::shared_ptr<Topic> changes = changes_.lock();
+    if (changes == nullptr || changes->subscriptions().empty()) return;
+    const TopicChange change = {kind, name(), type().name()};
+    Letter<TopicChange> letter(change);
+    changes->deliver(letter);
   }
 
   List subscriptions() const { return list_.copy(); }
@@ -152,6 +177,7 @@ class Topic {
 
   const TopicFacts facts_;
   const std::shared_ptr<ErrorSink> errors_;
+  const std::weak_ptr<Topic> changes_;
   ReadMostly<List> list_;
   std::atomic<bool> is_latched_{false};
   std::mutex latch_mutex_;

@@ -21,7 +21,12 @@ class Hub {
  public:
   using Topics = std::map<std::string, std::shared_ptr<Topic>>;
 
-  Hub() : errors_(std::make_shared<ErrorSink>()) {}
+  Hub()
+      : errors_(std::make_shared<ErrorSink>()),
+        changes_(
+            Topic::make("/messenger/changes", PayloadType::of<TopicChange>(), errors_, nullptr)) {
+    topics_[changes_->name()] = changes_;
+  }
   ~Hub() {
     for (const std::shared_ptr<Subscription>& one : patterns_) Topic::leave(one);
   }
@@ -34,10 +39,48 @@ class Hub {
   /// @throws TypeMismatch where it carries another type
   std::shared_ptr<Topic> topic(const std::string& name, const PayloadType& type) {
     const std::lock_guard<std::mutex> lock(mutex_);
+    if (is_shut_down_) throw Error("the messenger was shut down: nothing can be joined to it");
     std::shared_ptr<Topic>& found = topics_[name];
     if (!found) found = makeTopic(name, type);
     if (found->type() != type) throw TypeMismatch(name, found->type().name(), type.name());
     return found;
+  }
+
+  /// The topic on which calls of that service go, made where there is none.
+  /// @throws TypeMismatch where it has other types
+  std::shared_ptr<Topic> service(const std::string& name, const PayloadType& type) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (is_shut_down_) throw Error("the messenger was shut down: nothing can be joined to it");
+    std::shared_ptr<Topic>& found = services_[name];
+    if (!found) found = Topic::make(name, type, errors_, nullptr);
+    if (found->type() != type) throw TypeMismatch(name, found->type().name(), type.name());
+    return found;
+  }
+
+  /// Whether somebody answers calls of that service.
+  bool isServed(const std::string& name) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const Topics::const_iterator found = services_.find(name);
+    return found != services_.end() && !found->second->subscriptions().empty();
+  }
+
+  /// Ends all subscriptions, and refuses more.
+  void shutDown(Pending pending) {
+    std::vector<std::shared_ptr<Topic>> all;
+    std::vector<std::shared_ptr<Subscription>> subscriptions;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      is_shut_down_ = true;
+      subscriptions.swap(patterns_);
+      for (const Topics* topics : {&topics_, &services_}) {
+        for (const Topics::value_type& one : *topics) all.push_back(one.second);
+      }
+    }
+    for (const std::shared_ptr<Topic>& one : all) {
+      const Topic::List list = one->subscriptions();
+      subscriptions.insert(subscriptions.end(), list.begin(), list.end());
+    }
+    for (const std::shared_ptr<Subscription>& one : subscriptions) end(one, all, pending);
   }
 
   /// All topics that there are now.
@@ -84,11 +127,12 @@ class Hub {
     subscription->close(pending);  // lets publishers go that wait for room
     for (const std::shared_ptr<Topic>& one : topics) one->waitForPublishers();
     subscription->finish();
+    for (const std::shared_ptr<Topic>& one : topics) one->tell(TopicChange::subscriber_left);
   }
 
  private:
   std::shared_ptr<Topic> makeTopic(const std::string& name, const PayloadType& type) {
-    const std::shared_ptr<Topic> made = Topic::make(name, type, errors_);
+    const std::shared_ptr<Topic> made = Topic::make(name, type, errors_, changes_);
     for (const std::shared_ptr<Subscription>& one : patterns_) {
       if (matchesPattern(one->topic(), name)) made->add(one);
     }
@@ -96,9 +140,12 @@ class Hub {
   }
 
   const std::shared_ptr<ErrorSink> errors_;
+  const std::shared_ptr<Topic> changes_;
   mutable std::mutex mutex_;  // guards all below
   Topics topics_;
+  Topics services_;
   std::vector<std::shared_ptr<Subscription>> patterns_;
+  bool is_shut_down_ = false;
 };
 
 }  // namespace detail

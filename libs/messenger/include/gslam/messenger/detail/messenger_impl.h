@@ -2,9 +2,8 @@
 #ifndef GSLAM_MESSENGER_DETAIL_MESSENGER_IMPL_H
 #define GSLAM_MESSENGER_DETAIL_MESSENGER_IMPL_H
 
+#include <gslam/messenger/detail/service_call.h>
 #include <gslam/messenger/messenger.h>
-
-#include <chrono>
 
 namespace gslam {
 inline namespace v1 {
@@ -93,8 +92,10 @@ Subscriber Messenger::subscribe(const std::string& topic, const SubscribeOptions
   const std::shared_ptr<detail::Topic> found = find<T>(topic);
   const std::shared_ptr<detail::Subscription> subscription =
       makeSubscription<detail::TypedPayload<T>>(options, found->name(), std::move(callback));
+  Subscriber subscriber(hub_, found, subscription);
   found->add(subscription);
-  return Subscriber(hub_, found, subscription);
+  found->tell(TopicChange::subscriber_came);
+  return subscriber;
 }
 
 template <class T, class Method, class Object>
@@ -109,8 +110,9 @@ Subscriber Messenger::subscribeAny(const std::string& pattern, const SubscribeOp
                                    F callback) const {
   const std::shared_ptr<detail::Subscription> subscription = makeSubscription<detail::AnyPayload>(
       options, detail::topicName(space_, pattern, true), std::move(callback));
+  Subscriber subscriber(hub_, nullptr, subscription);
   hub_->addPattern(subscription);
-  return Subscriber(hub_, nullptr, subscription);
+  return subscriber;
 }
 
 template <class T>
@@ -118,8 +120,48 @@ Inbox<T> Messenger::inbox(const std::string& topic, const SubscribeOptions& opti
   using Subscription = detail::InboxSubscription<detail::TypedPayload<T>>;
   const std::shared_ptr<detail::Topic> found = find<T>(topic);
   const auto subscription = std::make_shared<Subscription>(options, found->name());
+  Subscriber subscriber(hub_, found, subscription);
   found->add(subscription);
-  return Inbox<T>(Subscriber(hub_, found, subscription), subscription);
+  found->tell(TopicChange::subscriber_came);
+  return Inbox<T>(std::move(subscriber), subscription);
+}
+
+// --- services
+
+template <class Request, class Response, class Handler>
+Subscriber Messenger::serve(const std::string& service, const SubscribeOptions& options,
+                            Handler handler) const {
+  using Call = detail::ServiceCall<Request, Response>;
+  if (detail::isEmpty(handler, 0)) throw ArgumentError("handler", "is empty, expected a function");
+  const std::shared_ptr<detail::Topic> found =
+      hub_->service(resolved(service), detail::PayloadType::of<Call>());
+  const std::shared_ptr<detail::Subscription> subscription =
+      makeSubscription<detail::TypedPayload<Call>>(
+          options, found->name(),
+          detail::CallAnswerer<Request, Response, Handler>(std::move(handler)));
+  Subscriber server(hub_, found, subscription);
+  if (found->addOnly(subscription)) return server;
+  throw ArgumentError("service", "is \"" + found->name() + "\", which is served already");
+}
+
+template <class Request, class Response, class Rep, class Period>
+Response Messenger::call(const std::string& service, Request request,
+                         const std::chrono::duration<Rep, Period>& timeout) const {
+  using Call = detail::ServiceCall<Request, Response>;
+  const std::shared_ptr<detail::Topic> found =
+      hub_->service(resolved(service), detail::PayloadType::of<Call>());
+  if (found->subscriptions().empty()) throw ServiceError(found->name(), ServiceError::unavailable);
+  const auto answer = [&] {
+    const auto call = std::make_shared<const Call>(found->name(), std::move(request));
+    detail::Letter<Call> letter(call);
+    found->deliver(letter);
+    return call->answer();
+  }();  // where nobody took the call, its end has told so
+  return answer->waitFor(found->name(), timeout);
+}
+
+inline bool Messenger::hasService(const std::string& service) const {
+  return hub_->isServed(resolved(service));
 }
 
 // --- telling
@@ -128,14 +170,15 @@ inline std::vector<TopicInfo> Messenger::topics() const {
   std::vector<TopicInfo> infos;
   for (const auto& one : hub_->topics()) {
     const detail::Topic& topic = *one.second;
-    TopicInfo info = {topic.name(),
-                      topic.type().name(),
-                      topic.type().size,
-                      topic.publisher_count,
-                      topic.messageCount(),
-                      topic.isLatched(),
-                      {},
-                      std::chrono::steady_clock::now()};
+    TopicInfo info;
+    info.name = topic.name();
+    info.type = topic.type().name();
+    info.type_size = topic.type().size;
+    info.publishers = topic.publisher_count;
+    info.messages = topic.messageCount();
+    info.bytes = topic.type().is_flat ? info.messages * info.type_size : 0;
+    info.is_latched = topic.isLatched();
+    info.at = std::chrono::steady_clock::now();
     for (const std::shared_ptr<detail::Subscription>& subscription : topic.subscriptions()) {
       const detail::QueueCounts counts = subscription->counts();
       info.subscribers.push_back({subscription->name(), subscription->topic(),

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstring>
 #include <string>
+#include <type_traits>
 #include <typeinfo>
 
 namespace gslam {
@@ -18,10 +19,11 @@ struct PayloadType {
   const std::type_info* info;
   std::size_t size;
   std::size_t align;
+  bool is_flat;  ///< whether its size is all that it takes
 
   template <class T>
   static PayloadType of() noexcept {
-    return {&typeid(T), sizeof(T), alignof(T)};
+    return {&typeid(T), sizeof(T), alignof(T), std::is_trivially_copyable<T>::value};
   }
 
   std::string name() const { return readableTypeName(info->name()); }
