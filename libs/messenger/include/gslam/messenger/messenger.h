@@ -87,7 +87,8 @@ class Messenger {
                                        Method method, Object object) const;
 
   /// Calls `callback(const AnyMessage&)` with the messages of all topics that match a pattern, now
-  /// and later: `*` stands for any characters but slashes, `**` for any. "/**" is all of them.
+  /// and later: `*` stands for any characters but slashes, `**` for any. "/**" is all of them but
+  /// what the messenger tells of itself, "/messenger/**".
   template <class F>
   GSLAM_NODISCARD Subscriber subscribeAny(const std::string& pattern,
                                           const SubscribeOptions& options, F callback) const;

@@ -97,7 +97,7 @@ class Hub {
       patterns_.push_back(subscription);
       ++subscription->places;
       for (const Topics::value_type& one : topics_) {
-        if (matchesPattern(subscription->topic(), one.first)) matching.push_back(one.second);
+        if (matches(subscription->topic(), one.first)) matching.push_back(one.second);
       }
     }
     for (const std::shared_ptr<Topic>& one : matching) one->add(subscription);
@@ -131,10 +131,19 @@ class Hub {
   }
 
  private:
+  // What the messenger tells of itself must be asked for: who records all topics does not change
+  // what there is to record.
+  static bool matches(const std::string& pattern, const std::string& name) {
+    const std::string ours = "/messenger/";
+    const bool is_ours = name.compare(0, ours.size(), ours) == 0;
+    return matchesPattern(pattern, name) &&
+           (!is_ours || pattern.compare(0, ours.size(), ours) == 0);
+  }
+
   std::shared_ptr<Topic> makeTopic(const std::string& name, const PayloadType& type) {
     const std::shared_ptr<Topic> made = Topic::make(name, type, errors_, changes_);
     for (const std::shared_ptr<Subscription>& one : patterns_) {
-      if (matchesPattern(one->topic(), name)) made->add(one);
+      if (matches(one->topic(), name)) made->add(one);
     }
     return made;
   }

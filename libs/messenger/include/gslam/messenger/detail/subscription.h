@@ -146,11 +146,11 @@ class QueuedSubscription final
         callback_(std::move(callback)),
         errors_(std::move(errors)) {}
   ~QueuedSubscription() override {
-    if (thread_.joinable()) thread_.detach();          // the last to go is the thread itself
-    if (pool_ != nullptr && pool_.use_count() == 1) {  // a pool cannot end in a thread of its own
-      const std::shared_ptr<ThreadPool> pool = std::move(pool_);
-      std::thread([pool] {}).detach();
-    }
+    if (thread_.joinable()) thread_.detach();  // the last to go is the thread itself
+    if (pool_ == nullptr) return;
+    // It ended in its own callback, so this may be a thread of the pool, which cannot end the pool.
+    std::shared_ptr<ThreadPool>* const pool = new std::shared_ptr<ThreadPool>(std::move(pool_));
+    std::thread([pool] { delete pool; }).detach();
   }
 
   /// To be called once, when a shared_ptr holds this.
