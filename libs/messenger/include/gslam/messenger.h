@@ -8,6 +8,7 @@
 #include <gslam/messenger/messenger.h>
 #include <gslam/messenger/publisher.h>
 #include <gslam/messenger/subscriber.h>
+#include <gslam/messenger/synchronizer.h>
 #include <gslam/messenger/version.h>
 
 #endif  // GSLAM_MESSENGER_H

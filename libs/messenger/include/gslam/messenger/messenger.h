@@ -143,6 +143,8 @@ class Messenger {
   std::vector<TopicInfo> topics() const;
 
  private:
+  template <class... Messages>
+  friend class Synchronizer;
   using Names = std::map<std::string, std::string>;
 
   Messenger(std::shared_ptr<detail::Hub> hub, std::string space, std::shared_ptr<const Names> names)
