@@ -59,6 +59,23 @@ class Messenger {
   template <class T>
   Publisher<T> advertise(const std::string& topic, Latch latch = Latch::off) const;
 
+  /// @{
+  /// Sends one message by the name of its topic; many are sent faster by a Publisher.
+  /// @throws ArgumentError for null or an impossible name, TypeMismatch when the topic carries
+  ///         another type
+  template <class T>
+  void publish(const std::string& topic, const std::shared_ptr<const T>& message) const {
+    if (!message) throw ArgumentError("message", "is null, expected one to publish on " + topic);
+    detail::Letter<T> letter(message);
+    find<T>(topic)->deliver(letter);
+  }
+  template <class T>
+  void publish(const std::string& topic, const T& message) const {
+    detail::Letter<T> letter(message);
+    find<T>(topic)->deliver(letter);
+  }
+  /// @}
+
   /// Calls `callback` in the publisher's thread with each message that is published from now on.
   /// @param topic     its name
   /// @param callback  takes `const T&` or `std::shared_ptr<const T>`; it may be called by several
@@ -152,7 +169,12 @@ class Messenger {
 
   template <class T>
   std::shared_ptr<detail::Topic> find(const std::string& topic) const {
-    return hub_->topic(resolved(topic), detail::PayloadType::of<T>());
+    const detail::PayloadType type = detail::PayloadType::of<T>();
+    if (!names_) {  // a name that is there needs no checks
+      std::shared_ptr<detail::Topic> known = hub_->knownTopic(topic, type);
+      if (known) return known;
+    }
+    return hub_->topic(resolved(topic), type);
   }
   std::string resolved(const std::string& topic) const;
 

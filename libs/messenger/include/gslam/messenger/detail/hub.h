@@ -46,6 +46,14 @@ class Hub {
     return found;
   }
 
+  /// The topic of that name and type, or null.
+  std::shared_ptr<Topic> knownTopic(const std::string& name, const PayloadType& type) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (is_shut_down_) return nullptr;
+    const Topics::const_iterator found = topics_.find(name);
+    return found != topics_.end() && found->second->type() == type ? found->second : nullptr;
+  }
+
   /// The topic on which calls of that service go, made where there is none.
   /// @throws TypeMismatch where it has other types
   std::shared_ptr<Topic> service(const std::string& name, const PayloadType& type) {
