@@ -20,8 +20,8 @@ using namespace synchronizer_rig;
 
 class Definition {
  public:
-  Definition(Stamps stamps, ApproximateTime policy)
-      : stamps_(std::move(stamps)), policy_(std::move(policy)) {}
+  Definition(Stamps stamps, const ApproximateTime& policy)
+      : stamps_(std::move(stamps)), policy_(policy) {}
 
   // The best set with places of at least `from`; false where there is none.
   bool next(const Places& from, Places& best) const {
