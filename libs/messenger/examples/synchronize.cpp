@@ -21,9 +21,10 @@ int main() {
 
   const gslam::Publisher<Image> camera = messenger.advertise<Image>("/camera");
   const gslam::Publisher<Imu> imu = messenger.advertise<Imu>("/imu");
-  for (int t = 0; t <= 100; ++t) {
-    if (t % 33 == 0) camera.publish(Image{t * 1000000});
-    if (t % 5 == 0) imu.publish(Imu{t * 1000000});
+  const std::int64_t millisecond = 1000000;
+  for (std::int64_t t = 0; t <= 100; ++t) {
+    if (t % 33 == 0) camera.publish(Image{t * millisecond});
+    if (t % 5 == 0) imu.publish(Imu{t * millisecond});
   }
   std::cout << pairs.dropped(1) << " IMU samples dropped\n";
 }

@@ -20,8 +20,8 @@ using namespace synchronizer_rig;
 
 class Definition {
  public:
-  Definition(Stamps stamps, ApproximateTime policy)
-      : stamps_(std::move(stamps)), policy_(std::move(policy)) {}
+  Definition(Stamps stamps, const ApproximateTime& policy)
+      : stamps_(std::move(stamps)), policy_(policy) {}
 
   // The best set with places of at least `from`; false where there is none.
   bool next(const Places& from, Places& best) const {
@@ -101,11 +101,13 @@ class Definition {
 using Random = std::mt19937;
 
 // In order on each topic, in any order across.
-std::vector<Arrival> randomArrivals(Random& random, std::size_t topics, int count) {
+std::vector<Arrival> randomArrivals(Random& random, const ApproximateTime& policy,
+                                    std::size_t topics, int count) {
   std::vector<Arrival> all;
   std::vector<std::int64_t> now(topics, 0);
   for (int i = 0; i < count; ++i) {
     const auto topic = static_cast<std::size_t>(draw(random, 0, static_cast<int>(topics) - 1));
+    now[topic] += policy.least_distance[topic];
     now[topic] += draw(random, 0, 1 + 3 * static_cast<int>(topic));
     all.push_back({topic, now[topic]});
   }
@@ -115,6 +117,7 @@ std::vector<Arrival> randomArrivals(Random& random, std::size_t topics, int coun
 ApproximateTime randomPolicy(Random& random) {
   ApproximateTime policy =
       draw(random, 0, 1) == 0 ? approximateTime() : approximateTime(draw(random, 0, 8));
+  if (draw(random, 0, 1) == 0) policy = policy.atLeastApart(0, draw(random, 1, 5));
   if (draw(random, 0, 2) == 0) policy = policy.agePenalty(0.5 * draw(random, 1, 4));
   return policy;
 }
@@ -126,7 +129,7 @@ void expectDefinition(std::size_t topics, int runs, int count) {
     SCOPED_TRACE(run);
     const ApproximateTime policy = randomPolicy(random);
     TheRig rig(policy);
-    for (const Arrival& one : randomArrivals(random, topics, count)) rig.publish(one);
+    for (const Arrival& one : randomArrivals(random, policy, topics, count)) rig.publish(one);
     const Sets early = rig.sets;
     rig.expectBalance();
     const Sets at_end = Definition(rig.stamps, policy).all();
@@ -171,11 +174,9 @@ TEST(ApproximateTime, WaitsNoLongerThanItMust) {
   int waited = 0;
   for (int run = 0; run < 150; ++run) {
     SCOPED_TRACE(run);
-    ApproximateTime policy = randomPolicy(random);
-    if (draw(random, 0, 1) == 0) policy = policy.atLeastApart(0, 1);
+    const ApproximateTime policy = randomPolicy(random);
     Two rig(policy);
-    for (Arrival one : randomArrivals(random, 2, 10)) {
-      if (one.topic == 0) one.stamp += static_cast<std::int64_t>(rig.stamps[0].size());
+    for (const Arrival& one : randomArrivals(random, policy, 2, 10)) {
       rig.publish(one);
       Places from(2, 0);
       if (!rig.sets.empty()) from = {rig.sets.back()[0] + 1, rig.sets.back()[1] + 1};
@@ -191,12 +192,13 @@ TEST(ApproximateTime, WaitsNoLongerThanItMust) {
 TEST(ApproximateTime, DoesNotDependOnWhichTopicIsFaster) {
   Random random(3);
   for (int run = 0; run < 200; ++run) {
-    std::vector<Arrival> arrivals = randomArrivals(random, 3, 60);
-    Three mixed(approximateTime());
+    const ApproximateTime policy = randomPolicy(random);
+    std::vector<Arrival> arrivals = randomArrivals(random, policy, 3, 60);
+    Three mixed(policy);
     for (const Arrival& one : arrivals) mixed.publish(one);
     std::stable_sort(arrivals.begin(), arrivals.end(),
                      [](const Arrival& a, const Arrival& b) { return a.topic < b.topic; });
-    Three sorted(approximateTime());
+    Three sorted(policy);
     for (const Arrival& one : arrivals) sorted.publish(one);
     ASSERT_EQ(mixed.sets, sorted.sets);
   }

@@ -23,10 +23,10 @@ TEST(ApproximateTime, CameraGetsTheNearestImuSample) {
   const std::int64_t ms = 1000000;
   std::mt19937 random(1);
   std::vector<Arrival> arrivals;
-  for (int i = 0; i < 30; ++i) {
+  for (std::int64_t i = 0; i < 30; ++i) {
     arrivals.push_back({0, i * 33 * ms + draw(random, 0, 2000000)});
   }
-  for (int i = 0; i < 220; ++i) {
+  for (std::int64_t i = 0; i < 220; ++i) {
     arrivals.push_back({1, i * 5 * ms + draw(random, 0, 1000000)});
   }
   std::sort(arrivals.begin(), arrivals.end(),
@@ -44,7 +44,7 @@ TEST(ApproximateTime, CameraGetsTheNearestImuSample) {
 
 TEST(ApproximateTime, MissingMessagesCostTheirSetOnly) {
   Two rig(approximateTime(10));
-  for (int i = 0; i < 20; ++i) {
+  for (std::int64_t i = 0; i < 20; ++i) {
     if (i % 5 != 3) rig.publish({0, 100 * i});
     if (i % 7 != 5) rig.publish({1, 100 * i + 4});
   }
