@@ -93,7 +93,8 @@ TEST(Messenger, RefusesImpossibleNames) {
   for (const char* name : {"", "/", "//a", "/a/", "/a//b", "/a b", "/a.b", "/\xc3\xa4", "a\n"}) {
     EXPECT_THROW(messenger.advertise<int>(name), gslam::ArgumentError) << name;
   }
-  EXPECT_THROW(messenger.subscribe<int>("/n", nullptr).keep(), gslam::ArgumentError);
+  EXPECT_THROW(messenger.subscribe<int>("/n", std::function<void(const int&)>()).keep(),
+               gslam::ArgumentError);
   EXPECT_THROW(messenger.advertise<int>("/n").publish(nullptr), gslam::ArgumentError);
 }
 

@@ -18,37 +18,68 @@ class Messenger;
 
 /// Sends messages of type T to one topic. Got from Messenger::advertise().
 ///
-/// A handle: copies send to the same topic, which lives as long as any of its handles. All members
-/// are thread-safe. A message must not be changed once it is published.
+/// A handle: copies are the same publisher. The topic lives as long as any of its handles. All
+/// members are thread-safe. A message must not be changed once it is published.
+///
+/// Messages that one thread publishes reach each subscriber in that order. What a callback throws
+/// goes to Messenger::onError(), and the others still get the message.
 template <class T>
 class Publisher {
  public:
   /// Sends to nobody.
   Publisher() = default;
 
-  /// Calls every subscriber with this message, in this thread, in the order of subscribing; no
-  /// copy is made. What a subscriber throws is logged, and the others still get the message.
+  /// Sends this message; no copy is made.
   /// @param message  not null; the pointer passed must not be changed by a subscriber meanwhile
   /// @throws ArgumentError when `message` is null
   void publish(const std::shared_ptr<const T>& message) const {
     if (!message) throw ArgumentError("message", "is null, expected one to publish on " + topic());
-    if (topic_) topic_->deliver(&message);
+    detail::Letter<T> letter(message);
+    send(letter);
   }
 
-  /// Moves the message into shared storage once, whatever the number of subscribers.
-  void publish(T message) const { publish(std::make_shared<const T>(std::move(message))); }
+  /// Sends this message. It is moved once, if at all: synchronous subscribers that take a
+  /// `const T&` see it where it is.
+  void publish(T&& message) const {
+    detail::Letter<T> letter(std::move(message));
+    send(letter);
+  }
+  /// Sends this message. It is copied once, if at all.
+  void publish(const T& message) const {
+    detail::Letter<T> letter(message);
+    send(letter);
+  }
 
   /// Name of the topic; empty for a default-constructed publisher.
-  std::string topic() const { return topic_ ? topic_->name() : std::string(); }
+  std::string topic() const { return link_ ? link_->topic->name() : std::string(); }
 
   /// Number of those who would get a message now.
-  std::size_t subscriberCount() const { return topic_ ? topic_->subscriberCount() : 0; }
+  std::size_t subscriberCount() const { return link_ ? link_->topic->subscriptions().size() : 0; }
 
  private:
   friend class Messenger;
-  explicit Publisher(std::shared_ptr<detail::Topic> topic) : topic_(std::move(topic)) {}
+  // Counts as one publisher, however many copies there are.
+  struct Link {
+    explicit Link(std::shared_ptr<detail::Topic> its_topic) : topic(std::move(its_topic)) {
+      ++topic->publisher_count;
+      topic->tell(TopicChange::publisher_came);
+    }
+    ~Link() {
+      --topic->publisher_count;
+      topic->tell(TopicChange::publisher_left);
+    }
+    Link(const Link&) = delete;
+    Link& operator=(const Link&) = delete;
+    const std::shared_ptr<detail::Topic> topic;
+  };
 
-  std::shared_ptr<detail::Topic> topic_;
+  explicit Publisher(std::shared_ptr<detail::Topic> topic)
+      : link_(std::make_shared<const Link>(std::move(topic))) {}
+  void send(detail::Letter<T>& letter) const {
+    if (link_) link_->topic->deliver(letter);
+  }
+
+  std::shared_ptr<const Link> link_;
 };
 
 }  // namespace v1

@@ -1,8 +1,9 @@
 #ifndef GSLAM_MESSENGER_SUBSCRIBER_H
 #define GSLAM_MESSENGER_SUBSCRIBER_H
 
-#include <gslam/messenger/topic.h>
+#include <gslam/messenger/detail/hub.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -19,6 +20,10 @@ class Messenger;
 ///
 /// Movable, not copyable. Not for use by two threads at once, but it may be destroyed in another
 /// thread than it was made in, and from inside its own callback.
+///
+/// When the end returns, the callback does not run and will not run any more: it waits for a
+/// callback that another thread is in, so do not end a subscription while you hold a lock that its
+/// callback takes. Only from inside of a callback, be it its own or another, it does not wait.
 class Subscriber {
  public:
   /// Subscribed to nothing.
@@ -28,20 +33,33 @@ class Subscriber {
   /// Ends its own subscription and takes the other over.
   Subscriber& operator=(Subscriber&& other) noexcept {
     Subscriber ended(std::move(other));
+    hub_.swap(ended.hub_);
     topic_.swap(ended.topic_);
     subscription_.swap(ended.subscription_);
     return *this;
   }
   ~Subscriber() { unsubscribe(); }
 
-  /// Ends the subscription. Messages that are published from now on do not reach the callback. A
-  /// message that another thread is delivering at this moment still may, also after this returns:
-  /// what the callback refers to must outlive that delivery.
+  /// Ends the subscription; what waits in its queue is dropped or drained as its options say.
   void unsubscribe() noexcept {
+    if (subscription_) unsubscribe(subscription_->atEnd());
+  }
+
+  /// Ends the subscription.
+  /// @param pending  what becomes of messages that wait in its queue
+  void unsubscribe(Pending pending) noexcept {
     // Taken out first: the end of the callback may destroy this object, which it may own.
     const std::shared_ptr<detail::Topic> topic = std::move(topic_);
     const std::shared_ptr<detail::Subscription> subscription = std::move(subscription_);
-    if (subscription) topic->remove(subscription);
+    const std::shared_ptr<detail::Hub> hub = hub_.lock();
+    if (!subscription) return;
+    if (topic) {
+      detail::Hub::end(subscription, {topic}, pending);
+    } else if (hub) {
+      hub->endPattern(subscription, pending);
+    } else {
+      detail::Hub::end(subscription, {}, pending);
+    }
   }
 
   /// Lets the subscription live as long as the topic, without this handle.
@@ -53,16 +71,22 @@ class Subscriber {
   /// Whether the subscription is in force.
   explicit operator bool() const noexcept { return subscription_ != nullptr; }
 
-  /// Name of the topic; empty when subscribed to nothing.
-  std::string topic() const { return topic_ ? topic_->name() : std::string(); }
+  /// Name of the topic, or the pattern; empty when subscribed to nothing.
+  std::string topic() const { return subscription_ ? subscription_->topic() : std::string(); }
+
+  /// Messages that wait in its queue; 0 for a synchronous one.
+  std::size_t waiting() const { return subscription_ ? subscription_->counts().waiting : 0; }
+  /// Messages that were dropped because its queue was full, or at its end.
+  std::uint64_t dropped() const { return subscription_ ? subscription_->counts().dropped : 0; }
 
  private:
   friend class Messenger;
-  Subscriber(std::shared_ptr<detail::Topic> topic,
+  Subscriber(const std::shared_ptr<detail::Hub>& hub, std::shared_ptr<detail::Topic> topic,
              std::shared_ptr<detail::Subscription> subscription)
-      : topic_(std::move(topic)), subscription_(std::move(subscription)) {}
+      : hub_(hub), topic_(std::move(topic)), subscription_(std::move(subscription)) {}
 
-  std::shared_ptr<detail::Topic> topic_;
+  std::weak_ptr<detail::Hub> hub_;
+  std::shared_ptr<detail::Topic> topic_;  // null for a pattern
   std::shared_ptr<detail::Subscription> subscription_;
 };
 

@@ -1,19 +1,17 @@
 #ifndef GSLAM_MESSENGER_TOPIC_H
 #define GSLAM_MESSENGER_TOPIC_H
 
-#include <gslam/base/error.h>
-#include <gslam/base/log.h>
+#include <gslam/messenger/detail/payload_type.h>
+#include <gslam/messenger/detail/read_mostly.h>
+#include <gslam/messenger/detail/subscription.h>
+#include <gslam/messenger/info.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <exception>
-#include <functional>
+#include <cstdint>
 #include <memory>
 #include <mutex>
-#include <new>
 #include <string>
-#include <typeinfo>
 #include <utility>
 #include <vector>
 
@@ -24,76 +22,166 @@ namespace gslam {
 inline namespace v1 {
 namespace detail {
 
-// One callback that waits for messages of one topic. It gets the address of the publisher's
-// std::shared_ptr<const T>, whose T the topic has checked: passing it on costs no reference count.
-struct Subscription {
-  using Callback = std::function<void(const void*)>;
-
-  explicit Subscription(Callback function) : callback(std::move(function)) {}
-
-  const Callback callback;
-  std::atomic<bool> active{true};
-};
-
-// Publishing reads an immutable list of subscriptions; subscribing replaces that list. So no lock
-// is held while a callback runs, and callbacks may subscribe, unsubscribe and publish.
 class Topic {
  public:
   using List = std::vector<std::shared_ptr<Subscription>>;
 
-  Topic(std::string name, const std::type_info& type)
-      : name_(std::move(name)), type_(type), list_(std::make_shared<const List>()) {}
+  /// @param changes  the topic that tells of changes; null for that topic itself
+  Topic(const std::string& name, PayloadType type, std::shared_ptr<ErrorSink> errors,
+        const std::shared_ptr<Topic>& changes)
+      : facts_{std::make_shared<const std::string>(name), type},
+        errors_(std::move(errors)),
+        changes_(changes),
+        list_(List()) {}
 
-  const std::string& name() const noexcept { return name_; }
-  const std::type_info& type() const noexcept { return type_; }
+  const std::string& name() const noexcept { return *facts_.name; }
+  const PayloadType& type() const noexcept { return facts_.type; }
+  const TopicFacts& facts() const noexcept { return facts_; }
 
-  void add(const std::shared_ptr<Subscription>& subscription) {
-    std::lock_guard<std::mutex> lock(mutex_);
-    auto list = std::make_shared<List>(*list_);
-    list->push_back(subscription);
-    list_ = std::move(list);
+  /// A topic may lose its last owner in one of its own callbacks: it then ends after them.
+  static std::shared_ptr<Topic> make(const std::string& name, PayloadType type,
+                                     std::shared_ptr<ErrorSink> errors,
+                                     const std::shared_ptr<Topic>& changes) {
+    std::unique_ptr<Topic> made(new Topic(name, type, std::move(errors), changes));
+    return std::shared_ptr<Topic>(made.release(), [](Topic* topic) {
+      std::shared_ptr<void> owner(topic, [](void* last) { delete static_cast<Topic*>(last); });
+      Delivering::destroyLater(std::move(owner));
+    });
   }
 
-  void remove(const std::shared_ptr<Subscription>& subscription) noexcept {
-    subscription->active.store(false, std::memory_order_release);
-    std::shared_ptr<const List> old;  // its callbacks end after the lock, they may be anything
-    try {
-      std::lock_guard<std::mutex> lock(mutex_);
-      auto list = std::make_shared<List>(*list_);
-      list->erase(std::remove(list->begin(), list->end(), subscription), list->end());
-      old = std::move(list_);
-      list_ = std::move(list);
-    } catch (const std::bad_alloc&) {  // it stays in the list, and is passed over
+  /// Nobody publishes or subscribes any more.
+  ~Topic() {
+    for (const std::shared_ptr<Subscription>& one : list_.copy()) leave(one);
+  }
+
+  /// Calls everyone who listens now, in the order of subscribing.
+  void deliver(AnyLetter& letter) {
+    const Delivering delivering;
+    if (is_latched_.load(std::memory_order_relaxed)) return deliverAndKeep(letter);
+    const ReadMostly<List>::Reader list(list_);
+    deliverTo(*list, letter);
+  }
+
+  /// From now on the last message is kept for those who subscribe later.
+  void latch() noexcept { is_latched_.store(true); }
+  bool isLatched() const noexcept { return is_latched_.load(); }
+
+  /// Adds one who listens; where a message is latched he gets it first, and none before it.
+  void add(const std::shared_ptr<Subscription>& subscription) {
+    std::uint64_t seen = 0;
+    while (!addAfter(seen, subscription)) {
+      const Latched last = latched();
+      seen = last.number;
+      if (last.letter == nullptr) continue;
+      const Delivering delivering;
+      errors_->guard(name(), [&] { subscription->receive(*last.letter, facts_); });
     }
   }
 
-  std::size_t subscriberCount() const { return subscriptions()->size(); }
+  /// Adds the one who answers; false where there is one already.
+  bool addOnly(const std::shared_ptr<Subscription>& subscription) {
+    bool added = false;
+    list_.replace([&](const List& list) {
+      added = list.empty();
+      return added ? List(1, subscription) : list;
+    });
+    if (added) ++subscription->places;
+    return added;
+  }
 
-  // Calls everyone who listens now, in the order of subscribing.
-  void deliver(const void* message) const {
-    const std::shared_ptr<const List> list = subscriptions();
-    for (const std::shared_ptr<Subscription>& subscription : *list) {
-      if (!subscription->active.load(std::memory_order_acquire)) continue;
+  /// Publishers that are delivering just now may still reach it.
+  void remove(const std::shared_ptr<Subscription>& subscription) {
+    bool was_there = false;
+    list_.replace([&](const List& list) {
+      List next;
+      next.reserve(list.size());
+      for (const std::shared_ptr<Subscription>& one : list) {
+        if (one != subscription) next.push_back(one);
+      }
+      was_there = next.size() != list.size();
+      return next;
+    });
+    if (was_there) --subscription->places;
+  }
+  /// Waits for the publishers that are delivering just now; not in a callback.
+  void waitForPublishers() {
+    if (!Delivering::isHere()) list_.waitForReaders();
+  }
+
+  /// Tells those who want to know.
+  void tell(TopicChange::Kind kind) const {
+    const std::shared_ptr<Topic> changes = changes_.lock();
+    if (changes == nullptr || changes->subscriptions().empty()) return;
+    const TopicChange change = {kind, name(), type().name()};
+    Letter<TopicChange> letter(change);
+    changes->deliver(letter);
+  }
+
+  List subscriptions() const { return list_.copy(); }
+  std::uint64_t messageCount() const noexcept { return list_.readCount(); }
+
+  std::atomic<std::size_t> publisher_count{0};
+
+  /// One place less; who gives up the last ends the subscription.
+  static void leave(const std::shared_ptr<Subscription>& subscription) {
+    if (--subscription->places > 0 || !subscription->is_active.exchange(false)) return;
+    subscription->close(subscription->atEnd());
+    if (!Delivering::isHere()) subscription->finish();
+  }
+
+ private:
+  struct Latched {
+    std::shared_ptr<AnyLetter> letter;
+    std::uint64_t number;
+  };
+
+  Latched latched() {
+    const std::lock_guard<std::mutex> lock(latch_mutex_);
+    return latched_;
+  }
+
+  void deliverTo(const List& list, AnyLetter& letter) {
+    for (const std::shared_ptr<Subscription>& subscription : list) {
+      if (!subscription->is_active.load(std::memory_order_acquire)) continue;
       try {
-        subscription->callback(message);
-      } catch (const std::exception& error) {
-        GSLAM_LOG(error) << "a subscriber of " << name_ << " threw: " << error.what();
+        subscription->receive(letter, facts_);
       } catch (...) {
-        GSLAM_LOG(error) << "a subscriber of " << name_ << " threw something that is no exception";
+        errors_->report(name(), std::current_exception());
       }
     }
   }
 
- private:
-  std::shared_ptr<const List> subscriptions() const {
-    std::lock_guard<std::mutex> lock(mutex_);
-    return list_;
+  // Who is added after the message was kept gets it from there, and so not from this list.
+  void deliverAndKeep(AnyLetter& letter) {
+    const std::shared_ptr<AnyLetter> kept = letter.kept();
+    std::unique_lock<std::mutex> lock(latch_mutex_);
+    latched_.letter = kept;
+    ++latched_.number;
+    const ReadMostly<List>::Reader list(list_);
+    lock.unlock();
+    deliverTo(*list, letter);
   }
 
-  const std::string name_;
-  const std::type_info& type_;
-  mutable std::mutex mutex_;  // guards list_
-  std::shared_ptr<const List> list_;
+  // False where a message was latched after number `seen`.
+  bool addAfter(std::uint64_t seen, const std::shared_ptr<Subscription>& subscription) {
+    const std::lock_guard<std::mutex> lock(latch_mutex_);
+    if (latched_.number != seen) return false;
+    list_.replace([&](const List& list) {
+      List next = list;
+      next.push_back(subscription);
+      return next;
+    });
+    ++subscription->places;
+    return true;
+  }
+
+  const TopicFacts facts_;
+  const std::shared_ptr<ErrorSink> errors_;
+  const std::weak_ptr<Topic> changes_;
+  ReadMostly<List> list_;
+  std::atomic<bool> is_latched_{false};
+  std::mutex latch_mutex_;
+  Latched latched_ = {nullptr, 0};
 };
 
 }  // namespace detail

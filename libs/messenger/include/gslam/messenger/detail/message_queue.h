@@ -1,0 +1,249 @@
+// Messages that wait for a subscriber.
+#ifndef GSLAM_MESSENGER_DETAIL_MESSAGE_QUEUE_H
+#define GSLAM_MESSENGER_DETAIL_MESSAGE_QUEUE_H
+
+#include <gslam/messenger/options.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace gslam {
+inline namespace v1 {
+namespace detail {
+
+/// First in, first out, in one block of memory that grows and is kept.
+template <class Item>
+class Ring {
+ public:
+  std::size_t size() const noexcept { return size_; }
+  bool empty() const noexcept { return size_ == 0; }
+
+  void push(Item item) {
+    if (size_ == items_.size()) grow();
+    items_[(first_ + size_) & (items_.size() - 1)] = std::move(item);
+    ++size_;
+  }
+
+  /// Must not be called on an empty one.
+  Item pop() {
+    Item item = std::move(items_[first_]);
+    items_[first_] = Item();  // what it held ends now, not when its place is used again
+    first_ = (first_ + 1) & (items_.size() - 1);
+    --size_;
+    return item;
+  }
+
+  void swap(Ring& other) noexcept {
+    items_.swap(other.items_);
+    std::swap(first_, other.first_);
+    std::swap(size_, other.size_);
+  }
+
+ private:
+  void grow() {
+    std::vector<Item> larger(items_.empty() ? 4 : 2 * items_.size());
+    for (std::size_t i = 0; i < size_; ++i) {
+      larger[i] = std::move(items_[(first_ + i) & (items_.size() - 1)]);
+    }
+    items_.swap(larger);
+    first_ = 0;
+  }
+
+  std::vector<Item> items_;  // a power of two of them
+  std::size_t first_ = 0;
+  std::size_t size_ = 0;
+};
+
+/// What became of messages.
+struct QueueCounts {
+  std::uint64_t received;  ///< that came
+  std::uint64_t dropped;   ///< of these
+  std::size_t waiting;     ///< of these
+};
+
+/// Messages from any number of publishers to one consumer.
+template <class Item>
+class MessageQueue {
+ public:
+  explicit MessageQueue(const SubscribeOptions& options)
+      : capacity_(options.capacity), overflow_(options.overflow), spin_(options.spin) {}
+
+  /// Lets a message wait, or drops one, as the options say. True where a consumer that had nothing
+  /// to do should be started.
+  bool push(Item item) {
+    Item dropped = Item();  // destroyed without the lock
+    std::unique_lock<std::mutex> lock(mutex_);
+    ++received_;
+    if (ring_.size() >= capacity_) {
+      if (overflow_ == Overflow::block_publisher && !isConsumer()) waitForRoom(lock);
+      if (overflow_ == Overflow::drop_newest) return drop(item, dropped);
+      if (overflow_ == Overflow::drop_oldest) {
+        dropped = ring_.pop();
+        ++dropped_;
+      }
+    }
+    if (is_closed_) return drop(item, dropped);
+    ring_.push(std::move(item));
+    size_.store(ring_.size(), std::memory_order_relaxed);
+    const bool was_idle = !is_busy_;
+    is_busy_ = true;
+    const bool wake = sleepers_ > 0;
+    lock.unlock();
+    if (wake) not_empty_.notify_one();
+    return was_idle;
+  }
+
+  /// The next message at once, or none.
+  bool tryPop(Item& item) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    return take(item, lock);
+  }
+
+  /// Waits for the next message; false when the queue was closed and holds no more.
+  bool waitPop(Item& item) {
+    spin();
+    std::unique_lock<std::mutex> lock(mutex_);
+    ++sleepers_;
+    not_empty_.wait(lock, [this] { return !ring_.empty() || is_closed_; });
+    --sleepers_;
+    return take(item, lock);
+  }
+
+  /// All that waits, in exchange for an empty ring; false when closed and empty. For queues without
+  /// bound: what was taken does not count any more.
+  bool waitPopAll(Ring<Item>& items) {
+    spin();
+    std::unique_lock<std::mutex> lock(mutex_);
+    ++sleepers_;
+    not_empty_.wait(lock, [this] { return !ring_.empty() || is_closed_; });
+    --sleepers_;
+    ring_.swap(items);
+    size_.store(0, std::memory_order_relaxed);
+    return !items.empty();
+  }
+
+  /// The same as waitPop(), but no longer than that; false also where none came.
+  template <class Clock, class Duration>
+  bool waitPopUntil(Item& item, const std::chrono::time_point<Clock, Duration>& end) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    ++sleepers_;
+    not_empty_.wait_until(lock, end, [this] { return !ring_.empty() || is_closed_; });
+    --sleepers_;
+    return take(item, lock);
+  }
+
+  /// The consumer of an executor has nothing more to do; false where something came meanwhile.
+  bool goIdle() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!ring_.empty()) return false;
+    is_busy_ = false;
+    idle_.notify_all();
+    return true;
+  }
+  /// Waits until goIdle() was true and nothing waits.
+  void waitUntilIdle() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    idle_.wait(lock, [this] { return !is_busy_; });
+  }
+
+  /// Takes no more messages; what waits is dropped or stays for the consumer.
+  void close(Pending pending) {
+    Ring<Item> dropped;  // destroyed without the lock
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_closed_ = true;
+    if (pending == Pending::discard) {
+      dropped_ += ring_.size();
+      ring_.swap(dropped);
+      size_.store(0, std::memory_order_relaxed);
+    }
+    not_empty_.notify_all();
+    not_full_.notify_all();
+  }
+
+  /// Messages that were taken out and not delivered.
+  void countDropped(std::size_t count) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    dropped_ += count;
+  }
+  bool isBounded() const noexcept { return capacity_ != std::numeric_limits<std::size_t>::max(); }
+  QueueCounts counts() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return {received_, dropped_, ring_.size()};
+  }
+
+  /// Which queue this thread delivers from just now.
+  class Consuming {
+   public:
+    explicit Consuming(const void* queue) noexcept : outer_(current()) { current() = queue; }
+    ~Consuming() { current() = outer_; }
+    Consuming(const Consuming&) = delete;
+    Consuming& operator=(const Consuming&) = delete;
+    static const void*& current() noexcept {
+      static thread_local const void* queue = nullptr;
+      return queue;
+    }
+
+   private:
+    const void* outer_;
+  };
+  bool isConsumer() const noexcept { return Consuming::current() == this; }
+
+ private:
+  bool drop(Item& item, Item& dropped) {
+    dropped = std::move(item);
+    ++dropped_;
+    return false;
+  }
+
+  void waitForRoom(std::unique_lock<std::mutex>& lock) {
+    ++waiting_publishers_;
+    not_full_.wait(lock, [this] { return ring_.size() < capacity_ || is_closed_; });
+    --waiting_publishers_;
+  }
+
+  bool take(Item& item, std::unique_lock<std::mutex>& lock) {
+    if (ring_.empty()) return false;
+    item = ring_.pop();
+    size_.store(ring_.size(), std::memory_order_relaxed);
+    const bool wake = waiting_publishers_ > 0;
+    lock.unlock();
+    if (wake) not_full_.notify_one();
+    return true;
+  }
+
+  void spin() const {
+    if (spin_.count() == 0) return;
+    const auto end = std::chrono::steady_clock::now() + spin_;
+    while (size_.load(std::memory_order_relaxed) == 0 && std::chrono::steady_clock::now() < end) {
+    }
+  }
+
+  const std::size_t capacity_;
+  const Overflow overflow_;
+  const std::chrono::microseconds spin_;
+  std::atomic<std::size_t> size_{0};  // of ring_, for spin()
+  mutable std::mutex mutex_;          // guards all below
+  std::condition_variable not_empty_;
+  std::condition_variable not_full_;
+  std::condition_variable idle_;
+  Ring<Item> ring_;
+  std::uint64_t received_ = 0;
+  std::uint64_t dropped_ = 0;
+  std::size_t waiting_publishers_ = 0;
+  std::size_t sleepers_ = 0;  // consumers that wait for not_empty_
+  bool is_busy_ = false;      // a consumer on an executor is at work, or about to be
+  bool is_closed_ = false;
+};
+
+}  // namespace detail
+}  // namespace v1
+}  // namespace gslam
+
+#endif  // GSLAM_MESSENGER_DETAIL_MESSAGE_QUEUE_H
