@@ -113,9 +113,15 @@ void burstByHand(benchmark::State& state) {
 }
 
 BENCHMARK_CAPTURE(burstOf, own_thread, inOwnThread())
-    ->Name("queued_burst/gslam")->Arg(1)->Arg(16)->UseRealTime();
+    ->Name("queued_burst/gslam")
+    ->Arg(1)
+    ->Arg(16)
+    ->UseRealTime();
 BENCHMARK_CAPTURE(burstOf, executor, onExecutor(std::make_shared<gslam::ThreadPool>(2)))
-    ->Name("queued_burst/gslam_executor")->Arg(1)->Arg(16)->UseRealTime();
+    ->Name("queued_burst/gslam_executor")
+    ->Arg(1)
+    ->Arg(16)
+    ->UseRealTime();
 BENCHMARK(burstByHand)->Name("queued_burst/mutex_deque")->Arg(1)->Arg(16)->UseRealTime();
 
 // One message at a time: until a thread that sleeps has handled it.
@@ -144,7 +150,8 @@ void wakeUpByHand(benchmark::State& state) {
 }
 BENCHMARK_CAPTURE(wakeUpOf, own_thread, inOwnThread())->Name("wake_up/gslam")->UseRealTime();
 BENCHMARK_CAPTURE(wakeUpOf, spinning, inOwnThread().spinFor(std::chrono::microseconds(100)))
-    ->Name("wake_up/gslam_spinning")->UseRealTime();
+    ->Name("wake_up/gslam_spinning")
+    ->UseRealTime();
 BENCHMARK(wakeUpByHand)->Name("wake_up/mutex_deque")->UseRealTime();
 
 // Several publishers of one topic.
@@ -170,9 +177,13 @@ void manyPublishers(benchmark::State& state, const SubscribeOptions& options) {
   state.SetItemsProcessed(state.iterations());
 }
 BENCHMARK_CAPTURE(manyPublishers, synchronous, SubscribeOptions())
-    ->Name("publishers/gslam")->ThreadRange(1, 4)->UseRealTime();
+    ->Name("publishers/gslam")
+    ->ThreadRange(1, 4)
+    ->UseRealTime();
 BENCHMARK_CAPTURE(manyPublishers, queued, inOwnThread().blockPublisher(4096))
-    ->Name("publishers_queued/gslam")->ThreadRange(1, 4)->UseRealTime();
+    ->Name("publishers_queued/gslam")
+    ->ThreadRange(1, 4)
+    ->UseRealTime();
 
 void publishByName(benchmark::State& state) {
   const Messenger messenger;

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
@@ -14,8 +15,11 @@
 namespace synchronizer_rig {
 
 struct Stamped {
+  Stamped(std::int64_t its_stamp = 0,  // NOLINT(google-explicit-constructor)
+          std::size_t its_place = 0)
+      : stamp(its_stamp), place(its_place) {}
   std::int64_t stamp;
-  std::size_t place = 0;  // among all of its topic
+  std::size_t place;  // among all of its topic
 };
 struct Arrival {
   std::size_t topic;
@@ -31,10 +35,11 @@ class Rig {
   template <class Policy>
   explicit Rig(const Policy& policy, std::size_t queue_size = 1000)
       : stamps(sizeof...(Messages)),
-        synchronizer_(messenger_, names(), policy, queue_size, [this](const auto&... message) {
-          sets.push_back({message->place...});
-          set_stamps.push_back({message->stamp...});
-        }) {
+        synchronizer_(messenger_, names(), policy, queue_size,
+                      [this](const std::shared_ptr<const Messages>&... message) {
+                        sets.push_back({message->place...});
+                        set_stamps.push_back({message->stamp...});
+                      }) {
     for (const std::string& name : names()) {
       publishers_.push_back(messenger_.advertise<Stamped>(name));
     }

@@ -12,11 +12,13 @@ namespace gslam {
 inline namespace v1 {
 namespace detail {
 
-/// Of overloads that are possible the one with the highest rank is the best match.
+/// @cond
+// Of overloads that are possible the one with the highest rank is the best match.
 template <int N>
 struct Rank : Rank<N - 1> {};
 template <>
 struct Rank<0> {};
+/// @endcond
 
 /// Whether it counts something; bool does not.
 template <class T>

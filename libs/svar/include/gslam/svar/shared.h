@@ -127,10 +127,10 @@ class SharedSvar {
   /// The next tree while it is made. What it holds at the end is destroyed when the lock is
   /// released, for objects of the program may use the SharedSvar as they go.
   struct Change {
-    Svar root;  // as it is now, then as it is to be, at the end as it was
-    std::unique_ptr<detail::SvarRule> rule;  // from now on
-    std::vector<std::unique_ptr<detail::SvarTaking>> takings;
-    std::vector<std::shared_ptr<detail::Watcher>> watchers;
+    Svar root;  ///< as it is now, then as it is to be, at the end as it was
+    std::unique_ptr<detail::SvarRule> rule;                    ///< from now on; may be null
+    std::vector<std::unique_ptr<detail::SvarTaking>> takings;  ///< of those who follow values
+    std::vector<std::shared_ptr<detail::Watcher>> watchers;    ///< that have ended
   };
 
   /// Lets `make` change change.root and change.rule under the lock and makes it so; callbacks wait
@@ -141,6 +141,7 @@ class SharedSvar {
   /// Runs the callbacks that wait, unless somebody is at it.
   void callBack();
   /// From now on the value at the path of the rule must keep to it.
+  /// @param rule     says what may stand there
   /// @param initial  put there where nothing is; may be null
   /// @throws SvarError when what is there does not; nothing is changed then
   void addRule(std::unique_ptr<detail::SvarRule> rule, const Svar* initial);
