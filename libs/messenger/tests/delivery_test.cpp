@@ -237,6 +237,18 @@ TEST(Overflow, CallbackIsNotHeldBackByItsOwnQueue) {
   }
 }
 
+TEST(Overflow, LateMessageTakesNothingFromAQueueThatIsDrained) {
+  gslam::detail::MessageQueue<int> queue(inOwnThread().keepLast(1));
+  queue.push(1);
+  queue.close(Pending::drain);
+  queue.push(2);
+  int item = 0;
+  EXPECT_TRUE(queue.tryPop(item));
+  EXPECT_EQ(item, 1);
+  EXPECT_FALSE(queue.tryPop(item));
+  EXPECT_EQ(queue.counts().dropped, 1u);
+}
+
 TEST(Overflow, NeedsRoomForOne) {
   EXPECT_THROW(inOwnThread().keepLast(0), ArgumentError);
   EXPECT_THROW(inOwnThread().dropNewest(0), ArgumentError);

@@ -149,7 +149,7 @@ class Hub {
   }
 
   std::shared_ptr<Topic> makeTopic(const std::string& name, const PayloadType& type) {
-    const std::shared_ptr<Topic> made = Topic::make(name, type, errors_, changes_);
+    std::shared_ptr<Topic> made = Topic::make(name, type, errors_, changes_);
     for (const std::shared_ptr<Subscription>& one : patterns_) {
       if (matches(one->topic(), name)) made->add(one);
     }

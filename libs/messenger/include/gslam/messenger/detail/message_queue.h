@@ -81,15 +81,13 @@ class MessageQueue {
     Item dropped = Item();  // destroyed without the lock
     std::unique_lock<std::mutex> lock(mutex_);
     ++received_;
-    if (ring_.size() >= capacity_) {
-      if (overflow_ == Overflow::block_publisher && !isConsumer()) waitForRoom(lock);
-      if (overflow_ == Overflow::drop_newest) return drop(item, dropped);
-      if (overflow_ == Overflow::drop_oldest) {
-        dropped = ring_.pop();
-        ++dropped_;
-      }
+    const bool is_full = ring_.size() >= capacity_;
+    if (is_full && overflow_ == Overflow::block_publisher && !isConsumer()) waitForRoom(lock);
+    if (is_closed_ || (is_full && overflow_ == Overflow::drop_newest)) return drop(item, dropped);
+    if (is_full && overflow_ == Overflow::drop_oldest) {
+      dropped = ring_.pop();
+      ++dropped_;
     }
-    if (is_closed_) return drop(item, dropped);
     ring_.push(std::move(item));
     size_.store(ring_.size(), std::memory_order_relaxed);
     const bool was_idle = !is_busy_;

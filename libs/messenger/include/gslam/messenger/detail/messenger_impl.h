@@ -55,7 +55,7 @@ inline Messenger Messenger::remapped(const std::map<std::string, std::string>& n
 }
 
 inline std::string Messenger::resolved(const std::string& topic) const {
-  const std::string name = detail::topicName(space_, topic);
+  std::string name = detail::topicName(space_, topic);
   if (!names_) return name;
   const Names::const_iterator other = names_->find(name);
   return other != names_->end() ? other->second : name;

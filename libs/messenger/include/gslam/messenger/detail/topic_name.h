@@ -22,7 +22,7 @@ inline bool isWordCharacter(char c) noexcept {
 ///         between
 inline std::string topicName(const std::string& space, const std::string& topic,
                              bool wildcards = false) {
-  const std::string name = !topic.empty() && topic[0] == '/' ? topic : space + "/" + topic;
+  std::string name = !topic.empty() && topic[0] == '/' ? topic : space + "/" + topic;
   bool part_begins = true;
   bool good = name.size() > 1;
   for (std::size_t i = 1; i < name.size(); ++i) {
