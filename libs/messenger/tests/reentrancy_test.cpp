@@ -171,4 +171,17 @@ TEST(Callback, OfAMemberFunction) {
       gslam::ArgumentError);
 }
 
+#if __cplusplus >= 201402L
+TEST(Callback, ThatIsGenericGetsAReference) {
+  struct Pose {
+    int x;
+  };
+  const Messenger messenger;
+  int sum = 0;
+  const Subscriber a = messenger.subscribe<Pose>("p", [&](const auto& pose) { sum += pose.x; });
+  messenger.publish<Pose>("p", Pose{3});
+  EXPECT_EQ(sum, 3);
+}
+#endif
+
 }  // namespace

@@ -78,8 +78,8 @@ class Messenger {
 
   /// Calls `callback` in the publisher's thread with each message that is published from now on.
   /// @param topic     its name
-  /// @param callback  takes `const T&` or `std::shared_ptr<const T>`; it may be called by several
-  ///                  threads at once, if several publish
+  /// @param callback  takes `const T&` (as a generic lambda does) or `std::shared_ptr<const T>`; it
+  ///                  may be called by several threads at once, if several publish
   /// @return the handle that holds the subscription: without it the subscription ends at once
   /// @throws ArgumentError for an empty callback or an impossible name, TypeMismatch when the topic
   ///         carries another type

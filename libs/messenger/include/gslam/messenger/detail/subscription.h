@@ -79,23 +79,24 @@ struct TypedPayload {
   }
 
  private:
-  // int is the better match for 0, where the call is possible
+  // int is the better match for 0, where the call is possible. A generic lambda, which any call
+  // fits, gets a reference.
   template <class F>
   static auto callNow(F& f, Letter<T>& letter, int)
-      -> decltype(f(std::declval<const Item&>()), void()) {
-    f(letter.share());
-  }
-  template <class F>
-  static void callNow(F& f, Letter<T>& letter, long) {
+      -> decltype(f(std::declval<const T&>()), void()) {
     f(letter.object());
   }
   template <class F>
-  static auto call(F& f, const Item& item, int) -> decltype(f(item), void()) {
-    f(item);
+  static void callNow(F& f, Letter<T>& letter, long) {
+    f(letter.share());
+  }
+  template <class F>
+  static auto call(F& f, const Item& item, int) -> decltype(f(std::declval<const T&>()), void()) {
+    f(*item);
   }
   template <class F>
   static void call(F& f, const Item& item, long) {
-    f(*item);
+    f(item);
   }
 };
 
