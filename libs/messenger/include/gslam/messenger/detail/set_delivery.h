@@ -145,16 +145,17 @@ class TypedSetDelivery final : public SetDelivery {
   void call(const MessageSet& set) override {
     call(callback_, set, 0, typename MakeIndices<sizeof...(Ts)>::Type());
   }
-  // int is the better match for 0, where the call is possible
+  // int is the better match for 0, where the call is possible. A generic lambda, which any call
+  // fits, gets references.
   template <class Callback, std::size_t... Is>
   static auto call(Callback& f, const MessageSet& set, int, Indices<Is...>)
-      -> decltype(f(std::declval<const std::shared_ptr<const Ts>&>()...), void()) {
-    f(static_cast<const std::shared_ptr<const Ts>&>(
-        std::static_pointer_cast<const Ts>(set[Is]))...);
+      -> decltype(f(std::declval<const Ts&>()...), void()) {
+    f(*static_cast<const Ts*>(set[Is].get())...);
   }
   template <class Callback, std::size_t... Is>
   static void call(Callback& f, const MessageSet& set, long, Indices<Is...>) {
-    f(*static_cast<const Ts*>(set[Is].get())...);
+    f(static_cast<const std::shared_ptr<const Ts>&>(
+        std::static_pointer_cast<const Ts>(set[Is]))...);
   }
 
   F callback_;
