@@ -2,8 +2,8 @@
 #define GSLAM_SVAR_H
 
 /// @file
-/// All of GSLAM::svar but Config, which stands in gslam/svar/config.h: who only reads parameters need
-/// not pay for the command line.
+/// All of GSLAM::svar but Config, which stands in gslam/svar/config.h: who only reads parameters
+/// need not pay for the command line.
 
 #include <gslam/svar/error.h>
 #include <gslam/svar/fields.h>
