@@ -21,7 +21,6 @@ using gslam::inOwnThread;
 using gslam::Messenger;
 using gslam::onExecutor;
 using gslam::Pending;
-using gslam::Publisher;
 using gslam::SubscribeOptions;
 using gslam::Subscriber;
 using gslam::ThreadPool;

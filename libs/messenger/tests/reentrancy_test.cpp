@@ -89,7 +89,7 @@ TEST(Callback, MayDestroyEverything) {
     inside.publisher = inside.messenger.advertise<std::string>("n");
     inside.subscriber =
         inside.messenger.subscribe<std::string>("n", options, [&](const std::string& text) {
-          const std::string copy = text;
+          const std::string copy(text.begin(), text.end());
           all.reset();
           done.set_value(text + copy);
         });
@@ -117,7 +117,7 @@ TEST(Callback, MayThrowAndOthersStillGetTheMessage) {
     const Messenger messenger;
     const auto publisher = messenger.advertise<int>("n");
     std::promise<std::string> told;
-    messenger.onError([&](const std::string& topic, std::exception_ptr error) {
+    messenger.onError([&](const std::string& topic, const std::exception_ptr& error) {
       try {
         std::rethrow_exception(error);
       } catch (const std::exception& problem) {
@@ -138,7 +138,7 @@ TEST(Callback, MayThrowAndOthersStillGetTheMessage) {
 TEST(Callback, HandlerOfErrorsMayThrow) {
   const Messenger messenger;
   messenger.onError(
-      [](const std::string&, std::exception_ptr error) { std::rethrow_exception(error); });
+      [](const std::string&, const std::exception_ptr& error) { std::rethrow_exception(error); });
   const auto publisher = messenger.advertise<int>("n");
   const Subscriber bad = messenger.subscribe<int>("n", [](const int&) { throw 7; });
   EXPECT_NO_THROW(publisher.publish(1));

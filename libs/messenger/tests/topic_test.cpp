@@ -134,7 +134,7 @@ TEST(Types, AreEqualAcrossLibrariesByNameUnlessUnnamed) {
 TEST(Info, TellsWhoPublishesAndListens) {
   const Messenger messenger;
   const auto publisher = messenger.advertise<int>("n");
-  const auto copy = publisher;
+  const auto copy = publisher;  // NOLINT(performance-unnecessary-copy-initialization)
   const auto second = messenger.advertise<int>("n", gslam::Latch::on);
   const Subscriber viewer =
       messenger.subscribe<int>("n", SubscribeOptions().named("viewer"), [](const int&) {});

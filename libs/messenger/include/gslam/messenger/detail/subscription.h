@@ -150,8 +150,8 @@ class QueuedSubscription final
     if (thread_.joinable()) thread_.detach();  // the last to go is the thread itself
     if (pool_ == nullptr) return;
     // It ended in its own callback, so this may be a thread of the pool, which cannot end the pool.
-    std::shared_ptr<ThreadPool>* const pool = new std::shared_ptr<ThreadPool>(std::move(pool_));
-    std::thread([pool] { delete pool; }).detach();
+    const auto pool = std::make_shared<std::shared_ptr<ThreadPool>>(std::move(pool_));
+    std::thread([pool] { pool->reset(); }).detach();
   }
 
   /// To be called once, when a shared_ptr holds this.
