@@ -174,6 +174,19 @@ TEST(Info, TellsOfChanges) {
   EXPECT_EQ(seen, (std::vector<std::string>{"0/n int", "2/n int", "3/n int", "1/n int"}));
 }
 
+TEST(Info, TellsOfPatternsWhereTheyMatch) {
+  const Messenger messenger;
+  const auto a = messenger.advertise<int>("a/n");
+  const auto b = messenger.advertise<int>("b/n");
+  std::vector<std::string> seen;
+  const Subscriber watcher = messenger.subscribe<gslam::TopicChange>(
+      "/messenger/changes", [&](const gslam::TopicChange& change) {
+        seen.push_back(std::to_string(change.kind) + change.topic);
+      });
+  messenger.subscribeAny("/a/*", [](const AnyMessage&) {}).unsubscribe();
+  EXPECT_EQ(seen, (std::vector<std::string>{"2/a/n", "3/a/n"}));
+}
+
 TEST(Service, Answers) {
   for (const SubscribeOptions& options : {SubscribeOptions(), gslam::inOwnThread()}) {
     const Messenger messenger;

@@ -36,7 +36,6 @@ class Topic {
 
   const std::string& name() const noexcept { return *facts_.name; }
   const PayloadType& type() const noexcept { return facts_.type; }
-  const TopicFacts& facts() const noexcept { return facts_; }
 
   /// A topic may lose its last owner in one of its own callbacks: it then ends after them.
   static std::shared_ptr<Topic> make(const std::string& name, PayloadType type,
@@ -89,8 +88,8 @@ class Topic {
     return added;
   }
 
-  /// Publishers that are delivering just now may still reach it.
-  void remove(const std::shared_ptr<Subscription>& subscription) {
+  /// False where it was not there. Publishers that are delivering just now may still reach it.
+  bool remove(const std::shared_ptr<Subscription>& subscription) {
     bool was_there = false;
     list_.replace([&](const List& list) {
       List next;
@@ -102,6 +101,7 @@ class Topic {
       return next;
     });
     if (was_there) --subscription->places;
+    return was_there;
   }
   /// Waits for the publishers that are delivering just now; not in a callback.
   void waitForPublishers() {
@@ -143,11 +143,7 @@ class Topic {
   void deliverTo(const List& list, AnyLetter& letter) {
     for (const std::shared_ptr<Subscription>& subscription : list) {
       if (!subscription->is_active.load(std::memory_order_acquire)) continue;
-      try {
-        subscription->receive(letter, facts_);
-      } catch (...) {
-        errors_->report(name(), std::current_exception());
-      }
+      errors_->guard(name(), [&] { subscription->receive(letter, facts_); });
     }
   }
 

@@ -108,7 +108,10 @@ class Hub {
         if (matches(subscription->topic(), one.first)) matching.push_back(one.second);
       }
     }
-    for (const std::shared_ptr<Topic>& one : matching) one->add(subscription);
+    for (const std::shared_ptr<Topic>& one : matching) {
+      one->add(subscription);
+      one->tell(TopicChange::subscriber_came);
+    }
   }
 
   /// Ends a subscription to a pattern.
@@ -127,15 +130,18 @@ class Hub {
     end(subscription, all, pending);
   }
 
-  /// Takes a subscription out of topics and ends it.
+  /// Takes a subscription out of those of the topics that it is in, and ends it.
   static void end(const std::shared_ptr<Subscription>& subscription,
                   const std::vector<std::shared_ptr<Topic>>& topics, Pending pending) {
     if (!subscription->is_active.exchange(false)) return;
-    for (const std::shared_ptr<Topic>& one : topics) one->remove(subscription);
+    std::vector<std::shared_ptr<Topic>> left;
+    for (const std::shared_ptr<Topic>& one : topics) {
+      if (one->remove(subscription)) left.push_back(one);
+    }
     subscription->close(pending);  // lets publishers go that wait for room
-    for (const std::shared_ptr<Topic>& one : topics) one->waitForPublishers();
+    for (const std::shared_ptr<Topic>& one : left) one->waitForPublishers();
     subscription->finish();
-    for (const std::shared_ptr<Topic>& one : topics) one->tell(TopicChange::subscriber_left);
+    for (const std::shared_ptr<Topic>& one : left) one->tell(TopicChange::subscriber_left);
   }
 
  private:

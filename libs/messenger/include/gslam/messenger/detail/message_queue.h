@@ -63,9 +63,8 @@ class Ring {
 
 /// What became of messages.
 struct QueueCounts {
-  std::uint64_t received;  ///< that came
-  std::uint64_t dropped;   ///< of these
-  std::size_t waiting;     ///< of these
+  std::uint64_t dropped;  ///< that came and were not delivered
+  std::size_t waiting;    ///< that are there now
 };
 
 /// Messages from any number of publishers to one consumer.
@@ -80,7 +79,6 @@ class MessageQueue {
   bool push(Item item) {
     Item dropped = Item();  // destroyed without the lock
     std::unique_lock<std::mutex> lock(mutex_);
-    ++received_;
     const bool is_full = ring_.size() >= capacity_;
     if (is_full && overflow_ == Overflow::block_publisher && !isConsumer()) waitForRoom(lock);
     if (is_closed_ || (is_full && overflow_ == Overflow::drop_newest)) return drop(item, dropped);
@@ -173,7 +171,7 @@ class MessageQueue {
   bool isBounded() const noexcept { return capacity_ != std::numeric_limits<std::size_t>::max(); }
   QueueCounts counts() const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return {received_, dropped_, ring_.size()};
+    return {dropped_, ring_.size()};
   }
 
   /// Which queue this thread delivers from just now.
@@ -232,7 +230,6 @@ class MessageQueue {
   std::condition_variable not_full_;
   std::condition_variable idle_;
   Ring<Item> ring_;
-  std::uint64_t received_ = 0;
   std::uint64_t dropped_ = 0;
   std::size_t waiting_publishers_ = 0;
   std::size_t sleepers_ = 0;  // consumers that wait for not_empty_

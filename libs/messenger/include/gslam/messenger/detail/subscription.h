@@ -42,7 +42,7 @@ class Subscription {
   virtual void close(Pending) {}
   /// Waits for callbacks, when no publisher is in receive() any more.
   virtual void finish() {}
-  virtual QueueCounts counts() const { return {0, 0, 0}; }
+  virtual QueueCounts counts() const { return {0, 0}; }
 
   const std::string& name() const noexcept { return name_; }
   const std::string& topic() const noexcept { return topic_; }
