@@ -13,16 +13,10 @@ import pathlib
 import subprocess
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "cmake"))
+from amalgamate import include_folders  # noqa: E402
+
 WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror"]
-
-
-def include_folders(house, name):
-    """Folders of the component and of everything below it; the generated ones, too."""
-    component = next(c for c in house["components"] if c["name"] == name)
-    folders = [component["folder"] + "/include", component["generated"]]
-    for dependency in component["depends"]:
-        folders += [f for f in include_folders(house, dependency) if f not in folders]
-    return folders
 
 
 def public_headers(component):
