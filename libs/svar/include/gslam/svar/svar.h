@@ -382,6 +382,7 @@ class GSLAM_PUBLIC Svar {
     return readOrThrow<T>(path, detail::IsPlain<T>());
   }
 
+  const Svar* wholeName(detail::Text path) const;
   const Svar* find(detail::Text path) const;
   Svar* child(detail::Text name) const;
   bool mayHave(detail::Text name) const;

@@ -166,13 +166,16 @@ inline bool Svar::mayHave(detail::Text name) const {
          (type_ == SvarType::array && detail::parseIndex(name, ignored));
 }
 
+// The member whose name is the whole path, or null; what begins with a slash is never a name.
+inline const Svar* Svar::wholeName(detail::Text path) const {
+  const bool pointer = !path.empty() && *path.data() == '/';
+  return type_ == SvarType::object && !pointer ? asObject().find(path) : nullptr;
+}
+
 // What stands at the path, or null; null also for a malformed path, which walk() finds out.
 inline const Svar* Svar::find(detail::Text path) const {
-  const bool pointer = !path.empty() && *path.data() == '/';
-  if (type_ == SvarType::object && !pointer) {
-    const Svar* const whole = asObject().find(path);
-    if (whole != nullptr) return whole;
-  }
+  const Svar* const whole = wholeName(path);
+  if (whole != nullptr) return whole;
   const Svar* at = this;
   for (detail::PathReader reader(path); at != nullptr; reader.next()) {
     if (reader.isMalformed()) return nullptr;
@@ -187,11 +190,11 @@ inline Svar::Walk Svar::walk(detail::Text path) const {
   Walk walk(path, this);
   if (isContainer()) walk.container = this;
   walk.shared = isShared();
-  if (type_ == SvarType::object && (path.empty() || *path.data() != '/')) {
-    const Svar* const whole = asObject().find(path);
-    walk.found = whole != nullptr;
-    if (walk.found) walk.at = whole;
-    if (walk.found) return walk;
+  const Svar* const whole = wholeName(path);
+  if (whole != nullptr) {
+    walk.at = whole;
+    walk.found = true;
+    return walk;
   }
   walk.reader.check();
   for (;; walk.reader.next()) {
@@ -206,7 +209,9 @@ inline Svar::Walk Svar::walk(detail::Text path) const {
 }
 
 inline bool Svar::contains(detail::Text path) const {
-  return find(path) != nullptr || walk(path).found;
+  if (find(path) != nullptr) return true;
+  detail::PathReader(path).check();
+  return false;
 }
 
 template <class T>
@@ -312,7 +317,7 @@ inline bool Svar::erase(detail::Text path) & {
     elements.erase(elements.begin() + (end.at - elements.data()));
     return true;
   }
-  const bool whole = end.container == this && asObject().find(path) == end.at;
+  const bool whole = wholeName(path) == end.at;
   return end.container->asObject().erase(whole ? path : end.reader.name());
 }
 
