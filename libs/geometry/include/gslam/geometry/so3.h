@@ -2,16 +2,15 @@
 #define GSLAM_GEOMETRY_SO3_H
 
 #include <gslam/base/error.h>
+#include <gslam/geometry/detail/rotation_matrix.h>
 #include <gslam/geometry/detail/rotation_vector.h>
 #include <gslam/geometry/mat.h>
 #include <gslam/geometry/vec.h>
 
 #include <cmath>
 #include <cstddef>
+#include <iosfwd>
 #include <limits>
-#include <ostream>
-#include <sstream>
-#include <string>
 #include <type_traits>
 
 /// @file
@@ -22,9 +21,11 @@ inline namespace v1 {
 
 /// A rotation of three-dimensional space; `R_world_body` takes body to world coordinates.
 ///
-/// Invariant: inside is a unit quaternion q, | |q| - 1 | <= 4 epsilon of T. Every function that
-/// makes an SO3 keeps it, products of any length too; there is no way to set q past the check. q
-/// and -q are the same rotation, and which of the two is stored is kept but means nothing.
+/// Invariant: inside is a unit quaternion q. Every function that makes an SO3 keeps | |q| - 1 |
+/// below 4 epsilon of T, but a product, whose norm is the product of the norms: after n factors it
+/// is within 4 n epsilon, after a million 1e-9. normalized() mends that; there is no way to set q
+/// past the checks. q and -q are the same rotation, and which of the two is stored is kept but
+/// means nothing.
 ///
 /// Conventions: Hamilton quaternions, stored, given and printed x y z w; v' = q v q*. Tangents are
 /// rotation vectors, axis times angle, in radians. Perturbations are on the right:
@@ -36,18 +37,20 @@ inline namespace v1 {
 /// Layout: four T, x y z w, trivially copyable, aligned as T. T is float or double.
 /// Thread-safety: as a number; it may be read by many threads, or written by one.
 ///
-/// Source of the notation: J. Sola, J. Deray, D. Atchuthan, "A micro Lie theory for state
-/// estimation in robotics", arXiv:1812.01537.
+/// Source of the notation and of the Jacobians: J. Sola, J. Deray, D. Atchuthan, "A micro Lie theory
+/// for state estimation in robotics", arXiv:1812.01537, whose equations are cited as (Sola n).
 template <class T>
 class SO3 {
   static_assert(std::is_same<T, float>::value || std::is_same<T, double>::value,
                 "SO3 is made for float and double");
 
  public:
-  using Scalar = T;             ///< float or double
-  using Tangent = Vec<T, 3>;    ///< rotation vector, radians
-  using Point = Vec<T, 3>;      ///< what a rotation acts on, any unit
-  using Matrix = Mat<T, 3, 3>;  ///< rotation matrix
+  using Scalar = T;                           ///< float or double
+  static constexpr std::size_t kFreedom = 3;  ///< degrees of freedom
+  using Tangent = Vec<T, 3>;                  ///< rotation vector, radians
+  using Point = Vec<T, 3>;                    ///< what a rotation acts on, any unit
+  using Matrix = Mat<T, 3, 3>;                ///< rotation matrix
+  using Jacobian = Mat<T, 3, 3>;              ///< tangents to tangents
 
   /// How far a matrix may be from orthonormal: enough for files with six digits.
   static constexpr T matrixTolerance() noexcept { return T(1e-5); }
@@ -65,13 +68,10 @@ class SO3 {
   static SO3 fromQuaternion(T x, T y, T z, T w) {
     const Vec<T, 4> q = {{x, y, z, w}};
     for (std::size_t i = 0; i < 4; ++i) {
-      if (!std::isfinite(q[i])) {
-        throw ArgumentError("quaternion (" + text(q) + ")", "has an element that is not finite");
-      }
+      if (!std::isfinite(q[i])) refuse(q, "has an element that is not finite");
     }
     if (!(q.norm() > epsilon())) {
-      throw ArgumentError("quaternion (" + text(q) + ")",
-                          "has a norm near zero, expected one that can be normalised to 1");
+      refuse(q, "has a norm near zero, expected one that can be normalised to 1");
     }
     const bool is_unit = std::fabs(q.squaredNorm() - 1) <= 4 * epsilon();
     return SO3(is_unit ? q : q.normalized());
@@ -79,32 +79,13 @@ class SO3 {
 
   /// The rotation of a rotation matrix, or one within about `tolerance` (radians) of a matrix that
   /// is nearly one.
-  ///
-  /// Of the four ways to get a quaternion from the elements, each divides by one of its components;
-  /// the one that divides by the largest is taken, so nothing cancels at any angle (S. W. Shepperd,
-  /// "Quaternion from rotation matrix", J. Guidance and Control 1(3), 1978).
   /// @param m          rotation matrix
   /// @param tolerance  largest allowed element of |m m^T - I|
   /// @throws ArgumentError when an element is not finite, when m is not orthonormal (it says which
   ///   row is not of length 1, or which two are not at right angles), or when m is a reflection
   static SO3 fromMatrix(const Matrix& m, T tolerance = matrixTolerance()) {
-    checkRotation(m, tolerance);
-    const T trace = m(0, 0) + m(1, 1) + m(2, 2);
-    std::size_t i = 0;
-    if (m(1, 1) > m(0, 0)) i = 1;
-    if (m(2, 2) > m(i, i)) i = 2;
-    if (trace > m(i, i)) {  // w is the largest component; all four times 4 w
-      return SO3(Vec<T, 4>{{m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1), 1 + trace}}
-                     .normalized());
-    }
-    const std::size_t j = (i + 1) % 3;
-    const std::size_t k = (i + 2) % 3;
-    Vec<T, 4> q;  // component i is the largest; all four times 4 q[i]
-    q[i] = 1 + m(i, i) - m(j, j) - m(k, k);
-    q[j] = m(j, i) + m(i, j);
-    q[k] = m(k, i) + m(i, k);
-    q[3] = m(k, j) - m(j, k);
-    return SO3(q.normalized());
+    detail::checkRotation(m, tolerance);
+    return SO3(detail::quaternionOfMatrix(m));
   }
 
   /// The rotation by |omega| radians about the axis omega. Every angle is right, also beyond pi (to
@@ -112,8 +93,8 @@ class SO3 {
   /// @throws ArgumentError when an element is not finite
   static SO3 exp(const Tangent& omega) { return SO3(detail::quaternionOfVector(omega)); }
 
-  /// The shortest rotation vector, in radians, norm 0 to pi. A half turn has two; the one along the
-  /// stored (x, y, z) is given. Never fails.
+  /// The shortest rotation vector, in radians, norm 0 to pi. A half turn has two; one of them is
+  /// given. Never fails.
   Tangent log() const noexcept { return detail::vectorOfQuaternion(q_); }
 
   /// The angle of the rotation, 0 to pi radians.
@@ -122,28 +103,35 @@ class SO3 {
   }
 
   /// The rotation back: R_b_a of R_a_b. Exact.
-  SO3 inverse() const noexcept { return SO3(Vec<T, 4>{{-x(), -y(), -z(), w()}}); }
+  SO3 inverse() const noexcept {
+    return SO3(-detail::Pair<T>::load(data()), -detail::Pair<T>::load(data() + 2).conjugate());
+  }
 
   /// First `other`, then this one.
   SO3 operator*(const SO3& other) const noexcept {
-    const T* const a = q_.values;
-    const T* const b = other.q_.values;
-    const T px = a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1];
-    const T py = a[3] * b[1] - a[0] * b[2] + a[1] * b[3] + a[2] * b[0];
-    const T pz = a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3];
-    const T pw = a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2];
-    // Roundings of the norm add up over products, and double when a rotation is squared. One Newton
-    // step for 1 / sqrt(s) at s = 1 removes them: 1 + d becomes 1 - 3/2 d^2.
-    const T scale = T(1.5) - T(0.5) * (px * px + py * py + pz * pz + pw * pw);
-    return SO3(Vec<T, 4>{{scale * px, scale * py, scale * pz, scale * pw}});
+    using detail::Pair;
+    const Pair<T> b_xy = Pair<T>::load(other.data());
+    const Pair<T> b_zw = Pair<T>::load(other.data() + 2);
+    const Pair<T> ax = Pair<T>::both(x()), ay = Pair<T>::both(y()), az = Pair<T>::both(z());
+    const Pair<T> aw = Pair<T>::both(w());
+    const Pair<T> crossed = ax * b_zw.swapped() - az * b_xy.swapped();
+    const Pair<T> opposed = ax * b_xy.swapped() + az * b_zw.swapped();
+    return SO3((aw * b_xy + ay * b_zw) + crossed.conjugate(),
+               (aw * b_zw - ay * b_xy) + opposed.conjugate());
   }
+  /// This one is followed by `other` on the right: `a = a * other`.
+  SO3& operator*=(const SO3& other) noexcept { return *this = *this * other; }
 
   /// The rotated point or direction: v + 2 w (u x v) + 2 u x (u x v) with u = (x, y, z).
   Point operator*(const Point& v) const noexcept {
     const Vec<T, 3> u = {{x(), y(), z()}};
-    const Vec<T, 3> t = T(2) * u.cross(v);
+    const Vec<T, 3> half = u.cross(v);
+    const Vec<T, 3> t = half + half;
     return v + w() * t + u.cross(t);
   }
+
+  /// The same rotation with the norm of the quaternion mended, for the end of long products.
+  SO3 normalized() const noexcept { return SO3(q_ / q_.norm()); }
 
   /// The rotation matrix; `r.matrix() * v` is `r * v` up to rounding.
   Matrix matrix() const noexcept {
@@ -170,6 +158,12 @@ class SO3 {
   const Vec<T, 4>& quaternion() const noexcept { return q_; }
   /// Four elements, x y z w.
   const T* data() const noexcept { return q_.data(); }
+  /// The same rotation with numbers of another type.
+  template <class U>
+  SO3<U> cast() const {
+    return SO3<U>::fromQuaternion(static_cast<U>(x()), static_cast<U>(y()), static_cast<U>(z()),
+                                  static_cast<U>(w()));
+  }
 
   /// The skew-symmetric matrix of a vector: `hat(a) * b` is `a.cross(b)`.
   static Matrix hat(const Tangent& a) noexcept {
@@ -182,6 +176,33 @@ class SO3 {
     return T(0.5) * Tangent{{m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)}};
   }
 
+  /// Ad, with R exp(d) R^-1 = exp(Ad d): the rotation matrix (Sola 139).
+  Jacobian adjoint() const noexcept { return matrix(); }
+  /// ad, the derivative of Ad at the identity: ad(a) b = [a, b], hat(a) for rotations.
+  static Jacobian ad(const Tangent& a) noexcept { return hat(a); }
+
+  /// J with exp(v + d) = exp(J d) exp(v) to first order (Sola 145). Exact at every angle.
+  static Jacobian leftJacobian(const Tangent& v) noexcept {
+    const T x = v.squaredNorm();
+    const detail::Stumpff<T> c = detail::Stumpff<T>::at(x);
+    return mixed(1 - x * c.c3, c.c2, c.c3, v);
+  }
+  /// The inverse of leftJacobian(v) (Sola 146). At whole turns, |v| = 2 pi, 4 pi, ..., there is none,
+  /// and the elements grow without bound towards them.
+  static Jacobian leftJacobianInverse(const Tangent& v) noexcept {
+    const T x = v.squaredNorm();
+    const detail::Stumpff<T> c = detail::Stumpff<T>::at(x);
+    const T d = (c.c3 - 2 * c.c4) / (2 * c.c2);
+    return mixed(1 - x * d, T(-0.5), d, v);
+  }
+  /// J with exp(v + d) = exp(v) exp(J d) to first order (Sola 143).
+  static Jacobian rightJacobian(const Tangent& v) noexcept { return leftJacobian(-v); }
+  /// The inverse of rightJacobian(v) (Sola 144).
+  static Jacobian rightJacobianInverse(const Tangent& v) noexcept { return leftJacobianInverse(-v); }
+
+  /// Derivative of (R exp(d)) p with respect to d at 0 (Sola 150); that to p is matrix().
+  Mat<T, 3, 3> actionJacobian(const Point& p) const noexcept { return matrix() * hat(-p); }
+
   /// Whether the angle between the two rotations is at most `tolerance` radians. Rounding alone
   /// makes angles of a few epsilon of T.
   bool isApprox(const SO3& other, T tolerance) const noexcept {
@@ -189,57 +210,43 @@ class SO3 {
   }
 
   /// The quaternion, `x y z w`, with the precision of the stream.
-  friend std::ostream& operator<<(std::ostream& out, const SO3& r) { return out << r.q_; }
+  template <class Char, class Traits>
+  friend std::basic_ostream<Char, Traits>& operator<<(std::basic_ostream<Char, Traits>& out,
+                                                      const SO3& r) {
+    return out << r.q_;
+  }
 
  private:
   explicit SO3(const Vec<T, 4>& unit_quaternion) noexcept : q_(unit_quaternion) {}
+  SO3(detail::Pair<T> xy, detail::Pair<T> zw) noexcept {
+    xy.store(q_.values);
+    zw.store(q_.values + 2);
+  }
+  template <class>
+  friend class SE3;
+  template <class>
+  friend class SIM3;
 
   static constexpr T epsilon() noexcept { return std::numeric_limits<T>::epsilon(); }
 
-  template <class Printable>
-  static std::string text(const Printable& value) {
-    std::ostringstream out;
-    out.precision(std::numeric_limits<T>::digits10);
-    out << value;
-    return out.str();
+  // one I + skew hat(v) + square v v^T
+  static Matrix mixed(T one, T skew, T square, const Tangent& v) noexcept {
+    const T x = v[0], y = v[1], z = v[2];
+    const T sx = square * x, sy = square * y, sz = square * z;
+    return {{one + sx * x, sx * y - skew * z, sx * z + skew * y,  //
+             sx * y + skew * z, one + sy * y, sy * z - skew * x,  //
+             sx * z - skew * y, sy * z + skew * x, one + sz * z}};
   }
 
-  static void checkRotation(const Matrix& m, T tolerance) {
-    for (std::size_t i = 0; i < 9; ++i) {
-      if (std::isfinite(m.values[i])) continue;
-      fail("has the element " + text(m.values[i]) + " in row " + text(i / 3) + ", column " +
-           text(i % 3) + ", expected finite elements");
-    }
-    Vec<T, 3> rows[3];
-    for (std::size_t i = 0; i < 9; ++i) rows[i / 3][i % 3] = m.values[i];
-    for (std::size_t i = 0; i < 3; ++i) checkRow(rows, i, tolerance);
-    const T determinant = rows[0].dot(rows[1].cross(rows[2]));
-    if (!(determinant > 0)) {
-      fail("is a reflection, its determinant is " + text(determinant) + ", expected 1");
-    }
-  }
-
-  static void checkRow(const Vec<T, 3> (&rows)[3], std::size_t i, T tolerance) {
-    const std::string allowed = " within " + text(tolerance);
-    const T squared = rows[i].squaredNorm();
-    if (!(std::fabs(squared - 1) <= tolerance)) {
-      fail("is not orthonormal, row " + text(i) + " has the squared length " + text(squared) +
-           ", expected 1" + allowed);
-    }
-    for (std::size_t j = 0; j < i; ++j) {
-      const T product = rows[i].dot(rows[j]);
-      if (std::fabs(product) <= tolerance) continue;
-      fail("is not orthonormal, rows " + text(j) + " and " + text(i) + " have the dot product " +
-           text(product) + ", expected 0" + allowed);
-    }
-  }
-
-  [[noreturn]] static void fail(const std::string& problem) {
-    throw ArgumentError("matrix", problem);
+  [[noreturn]] static void refuse(const Vec<T, 4>& q, const char* problem) {
+    throw ArgumentError("quaternion " + detail::vectorText(q), problem);
   }
 
   Vec<T, 4> q_;  // x y z w
 };
+
+template <class T>
+constexpr std::size_t SO3<T>::kFreedom;
 
 using SO3d = SO3<double>;  ///< double
 using SO3f = SO3<float>;   ///< float

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <ostream>
+#include <iosfwd>
 #include <type_traits>
 
 /// @file
@@ -42,6 +42,19 @@ struct Vec {
   T& operator[](std::size_t i) noexcept { return values[i]; }
   /// Element i, unchecked.
   constexpr const T& operator[](std::size_t i) const noexcept { return values[i]; }
+
+  /// The M elements from number `first` on; they must lie inside, unchecked.
+  template <std::size_t M>
+  Vec<T, M> segment(std::size_t first) const noexcept {
+    Vec<T, M> result;
+    for (std::size_t i = 0; i < M; ++i) result[i] = values[first + i];
+    return result;
+  }
+  /// Overwrites the M elements from number `first` on; unchecked.
+  template <std::size_t M>
+  void setSegment(std::size_t first, const Vec<T, M>& part) noexcept {
+    for (std::size_t i = 0; i < M; ++i) values[first + i] = part[i];
+  }
 
   /// Sum of the products of the elements.
   T dot(const Vec& other) const noexcept {
@@ -132,7 +145,9 @@ struct Vec {
   friend bool operator!=(const Vec& a, const Vec& b) noexcept { return !(a == b); }
 
   /// The elements with a blank between them, with the precision of the stream.
-  friend std::ostream& operator<<(std::ostream& out, const Vec& v) {
+  template <class Char, class Traits>
+  friend std::basic_ostream<Char, Traits>& operator<<(std::basic_ostream<Char, Traits>& out,
+                                                      const Vec& v) {
     out << v.values[0];
     for (std::size_t i = 1; i < N; ++i) out << ' ' << v.values[i];
     return out;

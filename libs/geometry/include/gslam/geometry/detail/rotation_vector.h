@@ -2,12 +2,13 @@
 #define GSLAM_GEOMETRY_DETAIL_ROTATION_VECTOR_H
 
 #include <gslam/base/error.h>
+#include <gslam/geometry/detail/arctangent.h>
+#include <gslam/geometry/detail/pair.h>
+#include <gslam/geometry/detail/stumpff.h>
 #include <gslam/geometry/vec.h>
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
-#include <type_traits>
 
 /// @file
 /// Rotation vector to unit quaternion and back, to the last bits at every angle.
@@ -19,51 +20,15 @@ namespace detail {
 // exp for an angle up to sqrt(10) = 3.16, that is, all of the ball of radius pi.
 //
 // The quaternion of the rotation vector a, with t = |a| and h = (t/2)^2, is
-//     vector part  a sin(t/2) / t = a/2 S(h),   S(h) = sum of (-h)^k / (2k+1)!
-//     scalar part  cos(t/2)       =     C(h),   C(h) = sum of (-h)^k / (2k)!
-// S and C are entire functions of h: no square root, no quotient, nothing that changes at small
-// angles, where h may underflow to 0 and S = 1 is then exact. The terms alternate and shrink from
-// k = 1 on (h <= 2.5), so what is left out is less than the first term left out:
-//     12 terms (double)  S: 2.5^12 / 25! < 4e-21    C: 2.5^12 / 24! < 1e-19
-//      8 terms (float)   S: 2.5^8  / 17! < 5e-12    C: 2.5^8  / 16! < 8e-11
+//     vector part  a sin(t/2) / t = a/2 c1(h)
+//     scalar part  cos(t/2)       =     c0(h)
 template <class T>
-Vec<T, 4> quaternionOfNearVector(const Vec<T, 3>& a, T squared_norm) noexcept {
-  static const T inverse_factorial[] = {
-      T(1.0 / 1),  // 0!
-      T(1.0 / 1),  // 1!
-      T(1.0 / 2),  // 2!, and so on
-      T(1.0 / 6),
-      T(1.0 / 24),
-      T(1.0 / 120),
-      T(1.0 / 720),
-      T(1.0 / 5040),
-      T(1.0 / 40320),
-      T(1.0 / 362880),
-      T(1.0 / 3628800),
-      T(1.0 / 39916800),
-      T(1.0 / 479001600),
-      T(1.0 / 6227020800.0),
-      T(1.0 / 87178291200.0),
-      T(1.0 / 1307674368000.0),
-      T(1.0 / 20922789888000.0),
-      T(1.0 / 355687428096000.0),
-      T(1.0 / 6402373705728000.0),
-      T(1.0 / 121645100408832000.0),
-      T(1.0 / 2432902008176640000.0),
-      T(1.0 / 51090942171709440000.0),
-      T(1.0 / 1124000727777607680000.0),
-      T(1.0 / 25852016738884976640000.0)  // 23!
-  };
-  constexpr std::size_t terms = std::is_same<T, float>::value ? 8 : 12;
-  const T minus_h = T(-0.25) * squared_norm;
-  T sine = inverse_factorial[2 * terms - 1];
-  T cosine = inverse_factorial[2 * terms - 2];
-  for (std::size_t k = terms - 1; k-- > 0;) {
-    sine = sine * minus_h + inverse_factorial[2 * k + 1];
-    cosine = cosine * minus_h + inverse_factorial[2 * k];
-  }
-  const T half_sine = T(0.5) * sine;
-  return {{half_sine * a[0], half_sine * a[1], half_sine * a[2], cosine}};
+Vec<T, 4> quaternionOfNearVector(const Vec<T, 3>& a, Pair<T> c10) noexcept {
+  const T half_sine = T(0.5) * c10.first();
+  Vec<T, 4> q;  // filled in the pieces in which it will be copied
+  (Pair<T>::both(half_sine) * Pair<T>::load(a.values)).store(q.values);
+  Pair<T>(half_sine * a[2], c10.second()).store(q.values + 2);
+  return q;
 }
 
 // exp for any angle; meant for the ones beyond sqrt(10), which are rare.
@@ -108,27 +73,46 @@ Vec<T, 4> quaternionOfFarVector(const Vec<T, 3>& a) {
 // exp: the unit quaternion (x y z w) of a rotation vector in radians.
 template <class T>
 Vec<T, 4> quaternionOfVector(const Vec<T, 3>& a) {
-  const T squared_norm = a.squaredNorm();
-  return squared_norm <= T(10) ? quaternionOfNearVector(a, squared_norm) : quaternionOfFarVector(a);
+  const T squared = a.squaredNorm();
+  return squared <= nearSquare<T>() ? quaternionOfNearVector(a, stumpff10(T(0.25) * squared))
+                                    : quaternionOfFarVector(a);
 }
 
-// log: the rotation vector, of norm 0 to pi, of a unit quaternion (x y z w).
+// What log needs of a unit quaternion q = (v, w), of which q and -q are the same rotation.
 //
-// With v = (x, y, z) the half angle is atan2(|v|, w), which is accurate at every angle (acos(w) is
-// not near 0, asin(|v|) is not near pi), and the axis is v / |v|. q and -q are the same rotation;
-// the one with w >= 0 has the half angle in [0, pi/2]. Where |v| < epsilon,
-//     atan2(|v|, w) / |v| = (1 / w) (1 - |v|^2 / (3 w^2) + ...) = 1 / w,
-// with a relative error below epsilon^2, and |v|^2, which may underflow, is not needed.
-// A norm of q that is off by a rounding cancels in both cases.
+// For w >= 0 a quarter of the angle t has the tangent |v| / (1 + w), at most 1, so with
+// x = |v|^2 / (1 + w)^2 and A(x) = atan(sqrt(x)) / sqrt(x) the rotation vector is
+//     t / |v| v = 4 A / (1 + w) v.
+// Nothing in it is singular: not at 0, where |v|^2 may underflow, and not at half a turn. Without
+// the square root and the branch of the usual atan2(|v|, w) / |v|.
+//
+// The inverse of SE3's V takes b to b - k v x b + d v x (v x b), where k = t / (2 |v|) and
+//     d = (1 - t/2 cot(t/2)) / |v|^2,    t/2 cot(t/2) = A (1 - x),    A = 1 + x R,
+// so d = (A - R) / (1 + w)^2: again nothing cancels.
+template <class T>
+struct RotationLog {
+  Vec<T, 3> v;  // of the one of q and -q that has w >= 0
+  T factor;     // the rotation vector is factor * v
+  T d;
+
+  static RotationLog of(const Vec<T, 4>& q) noexcept {
+    const T sign = std::copysign(T(1), q[3]);
+    const Vec<T, 3> v = {{sign * q[0], sign * q[1], sign * q[2]}};
+    const T inverse = 1 / (1 + std::fabs(q[3]));
+    const T square = inverse * inverse;
+    const T x = v.squaredNorm() * square;
+    const Pair<T> quotient = arctangentQuotient(x);
+    const T r = quotient.first() / quotient.second();
+    const T a = 1 + x * r;
+    return {v, 4 * a * inverse, (a - r) * square};
+  }
+};
+
+// log: the rotation vector, of norm 0 to pi, of a unit quaternion (x y z w).
 template <class T>
 Vec<T, 3> vectorOfQuaternion(const Vec<T, 4>& q) noexcept {
-  const Vec<T, 3> v = {{q[0], q[1], q[2]}};
-  const T squared = v.squaredNorm();
-  constexpr T epsilon = std::numeric_limits<T>::epsilon();
-  if (squared < epsilon * epsilon) return v * (2 / q[3]);
-  const T norm = std::sqrt(squared);
-  const T angle = 2 * std::atan2(norm, std::fabs(q[3]));
-  return v * ((q[3] < 0 ? -angle : angle) / norm);
+  const RotationLog<T> log = RotationLog<T>::of(q);
+  return log.factor * log.v;
 }
 
 }  // namespace detail
