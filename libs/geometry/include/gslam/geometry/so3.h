@@ -37,8 +37,9 @@ inline namespace v1 {
 /// Layout: four T, x y z w, trivially copyable, aligned as T. T is float or double.
 /// Thread-safety: as a number; it may be read by many threads, or written by one.
 ///
-/// Source of the notation and of the Jacobians: J. Sola, J. Deray, D. Atchuthan, "A micro Lie theory
-/// for state estimation in robotics", arXiv:1812.01537, whose equations are cited as (Sola n).
+/// Source of the notation and of the Jacobians: J. Sola, J. Deray, D. Atchuthan, "A micro Lie
+/// theory for state estimation in robotics", arXiv:1812.01537, whose equations are cited as (Sola
+/// n).
 template <class T>
 class SO3 {
   static_assert(std::is_same<T, float>::value || std::is_same<T, double>::value,
@@ -183,22 +184,19 @@ class SO3 {
 
   /// J with exp(v + d) = exp(J d) exp(v) to first order (Sola 145). Exact at every angle.
   static Jacobian leftJacobian(const Tangent& v) noexcept {
-    const T x = v.squaredNorm();
-    const detail::Stumpff<T> c = detail::Stumpff<T>::at(x);
-    return mixed(1 - x * c.c3, c.c2, c.c3, v);
+    return leftJacobian(v, detail::Stumpff<T>::at(v.squaredNorm()));
   }
-  /// The inverse of leftJacobian(v) (Sola 146). At whole turns, |v| = 2 pi, 4 pi, ..., there is none,
-  /// and the elements grow without bound towards them.
+  /// The inverse of leftJacobian(v) (Sola 146). At whole turns, |v| = 2 pi, 4 pi, ..., there is
+  /// none, and the elements grow without bound towards them.
   static Jacobian leftJacobianInverse(const Tangent& v) noexcept {
-    const T x = v.squaredNorm();
-    const detail::Stumpff<T> c = detail::Stumpff<T>::at(x);
-    const T d = (c.c3 - 2 * c.c4) / (2 * c.c2);
-    return mixed(1 - x * d, T(-0.5), d, v);
+    return leftJacobianInverse(v, detail::Stumpff<T>::at(v.squaredNorm()));
   }
   /// J with exp(v + d) = exp(v) exp(J d) to first order (Sola 143).
   static Jacobian rightJacobian(const Tangent& v) noexcept { return leftJacobian(-v); }
   /// The inverse of rightJacobian(v) (Sola 144).
-  static Jacobian rightJacobianInverse(const Tangent& v) noexcept { return leftJacobianInverse(-v); }
+  static Jacobian rightJacobianInverse(const Tangent& v) noexcept {
+    return leftJacobianInverse(-v);
+  }
 
   /// Derivative of (R exp(d)) p with respect to d at 0 (Sola 150); that to p is matrix().
   Mat<T, 3, 3> actionJacobian(const Point& p) const noexcept { return matrix() * hat(-p); }
@@ -226,6 +224,16 @@ class SO3 {
   friend class SE3;
   template <class>
   friend class SIM3;
+
+  static Jacobian leftJacobian(const Tangent& v, const detail::Stumpff<T>& c) noexcept {
+    return mixed(1 - v.squaredNorm() * c.c3, c.c2, c.c3, v);
+  }
+  // I - hat(v) / 2 + d hat(v)^2, where d |v|^2 = 1 - |v| / 2 cot(|v| / 2) = 1 - c1 / (2 c2), with
+  // the division by |v|^2 done on paper.
+  static Jacobian leftJacobianInverse(const Tangent& v, const detail::Stumpff<T>& c) noexcept {
+    const T d = (c.c3 - 2 * c.c4) / (2 * c.c2);
+    return mixed(1 - v.squaredNorm() * d, T(-0.5), d, v);
+  }
 
   static constexpr T epsilon() noexcept { return std::numeric_limits<T>::epsilon(); }
 

@@ -5,8 +5,8 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <iosfwd>
+#include <limits>
 #include <type_traits>
 
 /// @file
@@ -54,6 +54,14 @@ struct Vec {
   template <std::size_t M>
   void setSegment(std::size_t first, const Vec<T, M>& part) noexcept {
     for (std::size_t i = 0; i < M; ++i) values[first + i] = part[i];
+  }
+
+  /// The same elements as numbers of another type.
+  template <class U>
+  Vec<U, N> cast() const noexcept {
+    Vec<U, N> result;
+    for (std::size_t i = 0; i < N; ++i) result[i] = static_cast<U>(values[i]);
+    return result;
   }
 
   /// Sum of the products of the elements.

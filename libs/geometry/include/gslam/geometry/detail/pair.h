@@ -25,7 +25,9 @@ inline T multiplyAdd(T a, T x, T b) noexcept {
 #endif
 }
 #if GSLAM_HAS_FMA
-inline float multiplyAdd(float a, float x, float b) noexcept { return __builtin_fmaf(a, x, b); }
+inline float multiplyAdd(float a, float x, float b) noexcept {
+  return __builtin_fmaf(a, x, b);
+}
 #endif
 
 /// In general two variables.
@@ -133,8 +135,8 @@ struct EverySecond<T, N, 1> {
 };
 
 /// A polynomial for each of the two, highest power first, at x. The even and the odd powers are
-/// summed apart, two chains of operations that overlap; the constant is added last, so that at small
-/// x its rounding is the only one.
+/// summed apart, two chains of operations that overlap; the constant is added last, so that at
+/// small x its rounding is the only one.
 template <class T, std::size_t N>
 Pair<T> polynomials(const T (&coefficients)[N][2], T x) noexcept {
   const Pair<T> both_x = Pair<T>::both(x);

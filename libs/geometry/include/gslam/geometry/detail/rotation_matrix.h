@@ -42,9 +42,8 @@ template <class T, std::size_t R, std::size_t C>
 void checkFinite(const Mat<T, R, C>& m) {
   for (std::size_t i = 0; i < R * C; ++i) {
     if (std::isfinite(m.values[i])) continue;
-    refuseMatrix("has the element " + numberText(m.values[i]) + " in row " +
-                 std::to_string(i / C) + ", column " + std::to_string(i % C) +
-                 ", expected finite elements");
+    refuseMatrix("has the element " + numberText(m.values[i]) + " in row " + std::to_string(i / C) +
+                 ", column " + std::to_string(i % C) + ", expected finite elements");
   }
 }
 

@@ -43,11 +43,32 @@ inline Pair<double> stumpff10(double h) noexcept {
 }
 /// The same to 1.2e-8.
 inline Pair<float> stumpff10(float h) noexcept {
-  static constexpr float coefficients[][2] = {
-      {-2.40675959e-08f, -2.62812421e-07f}, {2.75359162e-06f, 2.47738717e-05f},
-      {-0.000198410795f, -0.00138886424f},  {0.00833333284f, 0.0416666605f},
-      {-0.166666672f, -0.5f},               {1.0f, 1.0f}};
+  static constexpr float coefficients[][2] = {{-2.40675959e-08f, -2.62812421e-07f},
+                                              {2.75359162e-06f, 2.47738717e-05f},
+                                              {-0.000198410795f, -0.00138886424f},
+                                              {0.00833333284f, 0.0416666605f},
+                                              {-0.166666672f, -0.5f},
+                                              {1.0f, 1.0f}};
   return polynomials(coefficients, h);
+}
+
+/// c3 for 0 <= x <= 10, to 9e-17 of its value at 0. The even and the odd powers are the pair.
+inline double stumpff3(double x) noexcept {
+  static constexpr double even_odd[][2] = {{8.189835826603783e-18, -1.790628581579503e-20},
+                                           {7.647145584959563e-13, -2.8111480432339206e-15},
+                                           {2.505210837327857e-08, -1.6059043210264797e-10},
+                                           {0.00019841269841269397, -2.7557319223867537e-06},
+                                           {0.16666666666666666, -0.008333333333333333}};
+  const Pair<double> sum = polynomials(even_odd, x * x);
+  return sum.first() + x * sum.second();
+}
+/// The same to 6e-8.
+inline float stumpff3(float x) noexcept {
+  static constexpr float even_odd[][2] = {{2.48974441e-08f, -1.42570997e-10f},
+                                          {0.000198412017f, -2.75518437e-06f},
+                                          {0.166666672f, -0.00833333284f}};
+  const Pair<float> sum = polynomials(even_odd, x * x);
+  return sum.first() + x * sum.second();
 }
 
 /// (c5, c4) for 0 <= x <= 10, to 8e-17 of their value at 0.
