@@ -29,6 +29,18 @@
 #define GSLAM_NODISCARD
 #endif
 
+/// @def GSLAM_ALWAYS_INLINE
+/// Before a function that is small once its arguments are known, which compilers cannot see.
+/// @def GSLAM_COLD
+/// Before a function for rare cases, which stays out of line, so that the usual case is small.
+#if defined(__GNUC__) || defined(__clang__)
+#define GSLAM_ALWAYS_INLINE inline __attribute__((always_inline))
+#define GSLAM_COLD __attribute__((noinline, cold))
+#else
+#define GSLAM_ALWAYS_INLINE inline
+#define GSLAM_COLD
+#endif
+
 /// @def GSLAM_X86
 /// 1 where x86-64 kernels (SSE4, AVX2, AVX-512) can be compiled, else 0.
 /// @def GSLAM_ARM64

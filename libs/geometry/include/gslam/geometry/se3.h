@@ -2,6 +2,7 @@
 #define GSLAM_GEOMETRY_SE3_H
 
 #include <gslam/base/error.h>
+#include <gslam/base/platform.h>
 #include <gslam/geometry/detail/rotation_matrix.h>
 #include <gslam/geometry/detail/translation_part.h>
 #include <gslam/geometry/mat.h>
@@ -31,7 +32,7 @@ inline namespace v1 {
 /// Exactness: exp and log are accurate at every angle, with no special angle in between: the error
 /// is below 4e-15 of the result's norm for double (18 epsilon). Jacobians: 1e-13.
 ///
-/// Layout: seven T, trivially copyable, aligned as T. T is float or double.
+/// Layout: seven T, qx qy qz qw tx ty tz, trivially copyable, aligned as T. T is float or double.
 /// Thread-safety: as a number; it may be read by many threads, or written by one.
 ///
 /// Sources: J. Sola, J. Deray, D. Atchuthan, "A micro Lie theory for state estimation in robotics",
@@ -47,10 +48,10 @@ class SE3 {
   using Jacobian = Mat<T, 6, 6>;              ///< tangents to tangents
 
   /// The identity.
-  SE3() noexcept : translation_{} {}
+  SE3() noexcept : translation_() {}
   /// p' = rotation p + translation.
   SE3(const SO3<T>& rotation, const Vec<T, 3>& translation)
-  noexcept : translation_(translation), rotation_(rotation) {}
+  noexcept : rotation_(rotation), translation_(translation) {}
 
   /// The identity.
   static SE3 identity() noexcept { return SE3(); }
@@ -80,11 +81,11 @@ class SE3 {
   /// V = I + c2 hat(v) + c3 hat(v)^2 for the tangent (r, v) (Sola 172, 174).
   /// @throws ArgumentError when an element of the rotation vector is not finite, or so large that
   ///   its square is not
-  static SE3 exp(const Tangent& tangent) {
+  static GSLAM_ALWAYS_INLINE SE3 exp(const Tangent& tangent) {
     const Vec<T, 3> r = tangent.template segment<3>(0);
     const Vec<T, 3> v = tangent.template segment<3>(3);
     const T x = v.squaredNorm();
-    if (!(x <= detail::nearSquare<T>())) return farExp(r, v, x);
+    if (!(x <= detail::nearSquare<T>())) return farExp(tangent);
     const detail::Pair<T> c10 = detail::stumpff10(T(0.25) * x);
     const T c2 = T(0.5) * c10.first() * c10.first();  // (1 - cos t) = 2 sin^2(t / 2)
     return SE3(SO3<T>(detail::quaternionOfNearVector(v, c10)),
@@ -93,7 +94,7 @@ class SE3 {
 
   /// The tangent of the shortest rotation, its angle from 0 to pi (Sola 173). A half turn has two;
   /// one of them is given. Never fails.
-  Tangent log() const noexcept {
+  GSLAM_ALWAYS_INLINE Tangent log() const noexcept {
     const detail::RotationLog<T> log = detail::RotationLog<T>::of(rotation_.quaternion());
     return tangentOf(detail::mixed(T(-0.5) * log.factor, log.d, log.v, translation_),
                      log.factor * log.v);
@@ -147,8 +148,8 @@ class SE3 {
   void setRotation(const SO3<T>& rotation) noexcept { rotation_ = rotation; }
   /// Replaces t.
   void setTranslation(const Vec<T, 3>& translation) noexcept { translation_ = translation; }
-  /// Seven elements, tx ty tz qx qy qz qw.
-  const T* data() const noexcept { return translation_.data(); }
+  /// Seven elements, qx qy qz qw tx ty tz.
+  const T* data() const noexcept { return rotation_.data(); }
   /// The same transform with numbers of another type.
   template <class U>
   SE3<U> cast() const {
@@ -227,7 +228,11 @@ class SE3 {
     return {{r[0], r[1], r[2], v[0], v[1], v[2]}};
   }
 
-  static SE3 farExp(const Vec<T, 3>& r, const Vec<T, 3>& v, T x) {
+  // Takes the tangent anew, so that exp() may keep its parts in registers.
+  GSLAM_COLD static SE3 farExp(const Tangent& tangent) {
+    const Vec<T, 3> r = tangent.template segment<3>(0);
+    const Vec<T, 3> v = tangent.template segment<3>(3);
+    const T x = v.squaredNorm();
     const SO3<T> rotation = SO3<T>::exp(v);
     detail::checkAngle(x);
     const detail::Stumpff<T> c = detail::Stumpff<T>::at(x);
@@ -238,28 +243,25 @@ class SE3 {
     return detail::Stumpff<T>::at(a.template segment<3>(3).squaredNorm());
   }
 
-  static Mat<T, 3, 3> leftBlock(const Tangent& a, const detail::Stumpff<T>& c) noexcept {
-    const Vec<T, 3> r = a.template segment<3>(0);
-    const Vec<T, 3> v = a.template segment<3>(3);
-    return detail::leftTranslationBlock(v, r, detail::mixed(c.c2, c.c3, v, r), c.c2, c.c3,
-                                        2 * c.c4 - c.c3, 3 * c.c5 - c.c4, c);
+  static GSLAM_ALWAYS_INLINE Mat<T, 3, 3> leftBlock(const Tangent& a,
+                                                    const detail::Stumpff<T>& c) noexcept {
+    return detail::leftTranslationBlock(a.template segment<3>(3), a.template segment<3>(0), T(1),
+                                        c.c2, c.c3, 2 * c.c4 - c.c3, 3 * c.c5 - c.c4, c);
   }
 
-  // [diagonal corner; 0 diagonal]
-  static Jacobian blocks(const Mat<T, 3, 3>& diagonal, const Mat<T, 3, 3>& corner) noexcept {
-    Jacobian j;
-    for (std::size_t r = 0; r < 3; ++r) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        j(r, c) = j(r + 3, c + 3) = diagonal(r, c);
-        j(r, c + 3) = corner(r, c);
-        j(r + 3, c) = 0;
-      }
-    }
-    return j;
+  // [d c; 0 d], element by element, because compilers keep loops as loops at -O2.
+  static GSLAM_ALWAYS_INLINE Jacobian blocks(const Mat<T, 3, 3>& d,
+                                             const Mat<T, 3, 3>& c) noexcept {
+    return {{d(0, 0), d(0, 1), d(0, 2), c(0, 0), c(0, 1), c(0, 2),  //
+             d(1, 0), d(1, 1), d(1, 2), c(1, 0), c(1, 1), c(1, 2),  //
+             d(2, 0), d(2, 1), d(2, 2), c(2, 0), c(2, 1), c(2, 2),  //
+             T(0),    T(0),    T(0),    d(0, 0), d(0, 1), d(0, 2),  //
+             T(0),    T(0),    T(0),    d(1, 0), d(1, 1), d(1, 2),  //
+             T(0),    T(0),    T(0),    d(2, 0), d(2, 1), d(2, 2)}};
   }
 
+  SO3<T> rotation_;  // first, so that its halves lie in the registers in which a pose is copied
   Vec<T, 3> translation_;
-  SO3<T> rotation_;
 };
 
 template <class T>

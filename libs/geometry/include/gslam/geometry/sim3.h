@@ -2,6 +2,7 @@
 #define GSLAM_GEOMETRY_SIM3_H
 
 #include <gslam/base/error.h>
+#include <gslam/base/platform.h>
 #include <gslam/geometry/detail/rotation_matrix.h>
 #include <gslam/geometry/detail/similarity_part.h>
 #include <gslam/geometry/mat.h>
@@ -25,13 +26,13 @@ inline namespace v1 {
 /// Invariant: that of SO3 for the rotation; the scale is finite and above 0, until a product leaves
 /// T's range. The translation is what it was given or became.
 ///
-/// Conventions: stored and printed tx ty tz qx qy qz qw s. Tangents are (translation, rotation, log
-/// scale). Perturbations are on the right: `S * SIM3::exp(delta)`. `S_a_b * S_b_c` is `S_a_c`.
+/// Conventions: printed tx ty tz qx qy qz qw s. Tangents are (translation, rotation, log scale).
+/// Perturbations are on the right: `S * SIM3::exp(delta)`. `S_a_b * S_b_c` is `S_a_c`.
 ///
 /// Exactness: exp, log and Jacobians are accurate at every angle and scale, with no special value
 /// in between: the error is below 1e-13 of the result's norm for double (500 epsilon).
 ///
-/// Layout: eight T, trivially copyable, aligned as T. T is float or double.
+/// Layout: eight T, qx qy qz qw tx ty tz s, trivially copyable, aligned as T. T is float or double.
 /// Thread-safety: as a number; it may be read by many threads, or written by one.
 ///
 /// Sources: H. Strasdat, "Local Accuracy and Global Consistency for Efficient Visual SLAM", 2012,
@@ -82,27 +83,24 @@ class SIM3 {
   /// @throws ArgumentError when an element of the rotation vector is not finite, or so large that
   /// its
   ///   square is not, and when the scale is not finite and above 0
-  static SIM3 exp(const Tangent& tangent) {
+  static GSLAM_ALWAYS_INLINE SIM3 exp(const Tangent& tangent) {
     const Vec<T, 3> r = tangent.template segment<3>(0);
     const Vec<T, 3> v = tangent.template segment<3>(3);
     const T s = tangent[6];
     const T x = v.squaredNorm();
-    if (!(x <= detail::nearSquare<T>() && std::fabs(s) <= 1)) return farExp(r, v, s, x);
+    if (!(x <= detail::nearSquare<T>() && std::fabs(s) <= 1)) return farExp(tangent);
     const detail::Pair<T> c10 = detail::stumpff10(T(0.25) * x);
     const detail::Pair<T> c54 = detail::stumpff54(x);
     const T c2 = T(0.5) * c10.first() * c10.first();
     const auto m = detail::ExponentialIntegrals<T>::near(s);
     const auto w =
         detail::SimilarityPart<T>::at(s, x, m, c2, T(1.0 / 6) - x * c54.first(), c54.second());
-    SIM3 result;
-    result.rigid_ = SE3<T>(SO3<T>(detail::quaternionOfNearVector(v, c10)), w(v, r));
-    result.scale_ = m.e;
-    return result;
+    return SIM3(SE3<T>(SO3<T>(detail::quaternionOfNearVector(v, c10)), w(v, r)), m.e, Unchecked());
   }
 
   /// The tangent of the shortest rotation, its angle from 0 to pi (Eade 157). A half turn has two;
   /// one of them is given. Never fails.
-  Tangent log() const noexcept {
+  GSLAM_ALWAYS_INLINE Tangent log() const noexcept {
     const Vec<T, 3> v = rotation().log();
     const T s = std::log(scale_);
     const T x = v.squaredNorm();
@@ -157,7 +155,7 @@ class SIM3 {
   T scale() const noexcept { return scale_; }
   /// R and t without the scale.
   const SE3<T>& rigid() const noexcept { return rigid_; }
-  /// Eight elements, tx ty tz qx qy qz qw s.
+  /// Eight elements, qx qy qz qw tx ty tz s.
   const T* data() const noexcept { return rigid_.data(); }
   /// The same similarity with numbers of another type.
   /// @throws ArgumentError when the scale leaves the range of U
@@ -251,7 +249,12 @@ class SIM3 {
                         "is " + detail::numberText(scale) + ", expected a finite one above 0");
   }
 
-  static SIM3 farExp(const Vec<T, 3>& r, const Vec<T, 3>& v, T s, T x) {
+  // Takes the tangent anew, so that exp() may keep its parts in registers.
+  GSLAM_COLD static SIM3 farExp(const Tangent& tangent) {
+    const Vec<T, 3> r = tangent.template segment<3>(0);
+    const Vec<T, 3> v = tangent.template segment<3>(3);
+    const T s = tangent[6];
+    const T x = v.squaredNorm();
     const SO3<T> rotation = SO3<T>::exp(v);
     detail::checkAngle(x);
     const auto m = detail::ExponentialIntegrals<T>::at(s);
@@ -270,7 +273,7 @@ class SIM3 {
       const Vec<T, 3> t = part(v, r);
       const auto d = detail::SimilarityDerivatives<T>::at(a[6], x);
       w = applied(Mat<T, 3, 3>::identity());
-      q = detail::leftTranslationBlock(v, r, t, part.b, part.c, d.b_x, d.c_x, stumpff);
+      q = detail::leftTranslationBlock(v, r, part.a, part.b, part.c, d.b_x, d.c_x, stumpff);
       scale = detail::mixed(d.a_s, d.b_s, d.c_s, v, r) - t;
       rotation = SO3<T>::leftJacobian(v, stumpff);
     }

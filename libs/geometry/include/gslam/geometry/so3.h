@@ -2,6 +2,7 @@
 #define GSLAM_GEOMETRY_SO3_H
 
 #include <gslam/base/error.h>
+#include <gslam/base/platform.h>
 #include <gslam/geometry/detail/rotation_matrix.h>
 #include <gslam/geometry/detail/rotation_vector.h>
 #include <gslam/geometry/mat.h>
@@ -92,11 +93,13 @@ class SO3 {
   /// The rotation by |omega| radians about the axis omega. Every angle is right, also beyond pi (to
   /// 0.01 / epsilon of T: where T's numbers are that far apart, an angle means nothing any more).
   /// @throws ArgumentError when an element is not finite
-  static SO3 exp(const Tangent& omega) { return SO3(detail::quaternionOfVector(omega)); }
+  static GSLAM_ALWAYS_INLINE SO3 exp(const Tangent& omega) {
+    return SO3(detail::quaternionOfVector(omega));
+  }
 
   /// The shortest rotation vector, in radians, norm 0 to pi. A half turn has two; one of them is
   /// given. Never fails.
-  Tangent log() const noexcept { return detail::vectorOfQuaternion(q_); }
+  GSLAM_ALWAYS_INLINE Tangent log() const noexcept { return detail::vectorOfQuaternion(q_); }
 
   /// The angle of the rotation, 0 to pi radians.
   T angle() const noexcept {
@@ -225,7 +228,8 @@ class SO3 {
   template <class>
   friend class SIM3;
 
-  static Jacobian leftJacobian(const Tangent& v, const detail::Stumpff<T>& c) noexcept {
+  static GSLAM_ALWAYS_INLINE Jacobian leftJacobian(const Tangent& v,
+                                                   const detail::Stumpff<T>& c) noexcept {
     return mixed(1 - v.squaredNorm() * c.c3, c.c2, c.c3, v);
   }
   // I - hat(v) / 2 + d hat(v)^2, where d |v|^2 = 1 - |v| / 2 cot(|v| / 2) = 1 - c1 / (2 c2), with
@@ -238,7 +242,7 @@ class SO3 {
   static constexpr T epsilon() noexcept { return std::numeric_limits<T>::epsilon(); }
 
   // one I + skew hat(v) + square v v^T
-  static Matrix mixed(T one, T skew, T square, const Tangent& v) noexcept {
+  static GSLAM_ALWAYS_INLINE Matrix mixed(T one, T skew, T square, const Tangent& v) noexcept {
     const T x = v[0], y = v[1], z = v[2];
     const T sx = square * x, sy = square * y, sz = square * z;
     return {{one + sx * x, sx * y - skew * z, sx * z + skew * y,  //

@@ -1,6 +1,7 @@
 #ifndef GSLAM_GEOMETRY_DETAIL_EXPONENTIAL_H
 #define GSLAM_GEOMETRY_DETAIL_EXPONENTIAL_H
 
+#include <gslam/base/platform.h>
 #include <gslam/geometry/detail/pair.h>
 
 #include <cmath>
@@ -44,10 +45,12 @@ template <class T>
 struct ExponentialIntegrals {
   T e, m0, m1, m2;
 
-  static ExponentialIntegrals at(T s) noexcept { return std::fabs(s) <= 1 ? near(s) : far(s); }
+  static GSLAM_ALWAYS_INLINE ExponentialIntegrals at(T s) noexcept {
+    return std::fabs(s) <= 1 ? near(s) : far(s);
+  }
 
   /// For |s| <= 1.
-  static ExponentialIntegrals near(T s) noexcept {
+  static GSLAM_ALWAYS_INLINE ExponentialIntegrals near(T s) noexcept {
     const T tail = exponentialTail(s);
     const T square = s * s;
     const T m0 = 1 + s * (T(0.5) + s * tail);
@@ -56,7 +59,7 @@ struct ExponentialIntegrals {
   }
 
  private:
-  static ExponentialIntegrals far(T s) noexcept {
+  GSLAM_COLD static ExponentialIntegrals far(T s) noexcept {
     const T e = std::exp(s);
     const T m0 = (e - 1) / s;
     const T m1 = (e - m0) / s;

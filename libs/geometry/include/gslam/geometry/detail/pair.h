@@ -116,20 +116,20 @@ class Pair<double> {
 /// because compilers keep loops as loops at -O2.
 template <class T, std::size_t N, std::size_t I>
 struct EverySecond {
-  static Pair<T> sum(const T (&coefficients)[N][2], Pair<T> square) noexcept {
+  static GSLAM_ALWAYS_INLINE Pair<T> sum(const T (&coefficients)[N][2], Pair<T> square) noexcept {
     return multiplyAdd(EverySecond<T, N, I - 2>::sum(coefficients, square), square,
                        Pair<T>::load(coefficients[I]));
   }
 };
 template <class T, std::size_t N>
 struct EverySecond<T, N, 0> {
-  static Pair<T> sum(const T (&coefficients)[N][2], Pair<T>) noexcept {
+  static GSLAM_ALWAYS_INLINE Pair<T> sum(const T (&coefficients)[N][2], Pair<T>) noexcept {
     return Pair<T>::load(coefficients[0]);
   }
 };
 template <class T, std::size_t N>
 struct EverySecond<T, N, 1> {
-  static Pair<T> sum(const T (&coefficients)[N][2], Pair<T>) noexcept {
+  static GSLAM_ALWAYS_INLINE Pair<T> sum(const T (&coefficients)[N][2], Pair<T>) noexcept {
     return Pair<T>::load(coefficients[1]);
   }
 };
@@ -138,7 +138,7 @@ struct EverySecond<T, N, 1> {
 /// summed apart, two chains of operations that overlap; the constant is added last, so that at
 /// small x its rounding is the only one.
 template <class T, std::size_t N>
-Pair<T> polynomials(const T (&coefficients)[N][2], T x) noexcept {
+GSLAM_ALWAYS_INLINE Pair<T> polynomials(const T (&coefficients)[N][2], T x) noexcept {
   const Pair<T> both_x = Pair<T>::both(x);
   const Pair<T> square = Pair<T>::both(x * x);
   const Pair<T> slope = multiplyAdd(EverySecond<T, N, N - 3>::sum(coefficients, square), both_x,

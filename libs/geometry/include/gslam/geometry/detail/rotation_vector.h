@@ -2,6 +2,7 @@
 #define GSLAM_GEOMETRY_DETAIL_ROTATION_VECTOR_H
 
 #include <gslam/base/error.h>
+#include <gslam/base/platform.h>
 #include <gslam/geometry/detail/arctangent.h>
 #include <gslam/geometry/detail/pair.h>
 #include <gslam/geometry/detail/stumpff.h>
@@ -23,10 +24,10 @@ namespace detail {
 //     vector part  a sin(t/2) / t = a/2 c1(h)
 //     scalar part  cos(t/2)       =     c0(h)
 template <class T>
-Vec<T, 4> quaternionOfNearVector(const Vec<T, 3>& a, Pair<T> c10) noexcept {
+GSLAM_ALWAYS_INLINE Vec<T, 4> quaternionOfNearVector(const Vec<T, 3>& a, Pair<T> c10) noexcept {
   const T half_sine = T(0.5) * c10.first();
   Vec<T, 4> q;  // filled in the pieces in which it will be copied
-  (Pair<T>::both(half_sine) * Pair<T>::load(a.values)).store(q.values);
+  (Pair<T>::both(half_sine) * Pair<T>(a[0], a[1])).store(q.values);
   Pair<T>(half_sine * a[2], c10.second()).store(q.values + 2);
   return q;
 }
@@ -40,7 +41,7 @@ Vec<T, 4> quaternionOfNearVector(const Vec<T, 3>& a, Pair<T> c10) noexcept {
 // t * epsilon^2 times a small number: nothing to see up to angles of 0.01 / epsilon.
 // Scaling by a power of two keeps the squares in range and is exact.
 template <class T>
-Vec<T, 4> quaternionOfFarVector(const Vec<T, 3>& a) {
+GSLAM_COLD Vec<T, 4> quaternionOfFarVector(const Vec<T, 3>& a) {
   int exponent = 0;
   Vec<T, 3> scaled;
   T square = 0;
@@ -95,7 +96,7 @@ struct RotationLog {
   T factor;     // the rotation vector is factor * v
   T d;
 
-  static RotationLog of(const Vec<T, 4>& q) noexcept {
+  static GSLAM_ALWAYS_INLINE RotationLog of(const Vec<T, 4>& q) noexcept {
     const T sign = std::copysign(T(1), q[3]);
     const Vec<T, 3> v = {{sign * q[0], sign * q[1], sign * q[2]}};
     const T inverse = 1 / (1 + std::fabs(q[3]));

@@ -1,6 +1,7 @@
 #ifndef GSLAM_GEOMETRY_DETAIL_SIMILARITY_PART_H
 #define GSLAM_GEOMETRY_DETAIL_SIMILARITY_PART_H
 
+#include <gslam/base/platform.h>
 #include <gslam/geometry/detail/exponential.h>
 #include <gslam/geometry/detail/stumpff.h>
 #include <gslam/geometry/detail/translation_part.h>
@@ -31,7 +32,8 @@ template <class T>
 struct SimilarityPart {
   T a, b, c;
 
-  static SimilarityPart at(T s, T x, const ExponentialIntegrals<T>& m, T c2, T c3, T c4) noexcept {
+  static GSLAM_ALWAYS_INLINE SimilarityPart at(T s, T x, const ExponentialIntegrals<T>& m, T c2,
+                                               T c3, T c4) noexcept {
     const T sum = s * s + x;
     const T weight = sum > 0 ? x / sum : T(0);
     const T rotating = weight * m.e;
@@ -39,19 +41,20 @@ struct SimilarityPart {
     return {m.m0, scaling * m.m1 + rotating * (c2 - s * c3),
             scaling * m.m2 + rotating * (c3 - s * c4)};
   }
-  static SimilarityPart at(T s, T x, const ExponentialIntegrals<T>& m) noexcept {
+  static GSLAM_ALWAYS_INLINE SimilarityPart at(T s, T x,
+                                               const ExponentialIntegrals<T>& m) noexcept {
     const Stumpff<T> c = Stumpff<T>::at(x);
     return at(s, x, m, c.c2, c.c3, c.c4);
   }
 
   /// W r.
-  Vec<T, 3> operator()(const Vec<T, 3>& v, const Vec<T, 3>& r) const noexcept {
+  GSLAM_ALWAYS_INLINE Vec<T, 3> operator()(const Vec<T, 3>& v, const Vec<T, 3>& r) const noexcept {
     return mixed(a, b, c, v, r);
   }
 
   /// W^-1 t. In the plane across v, W is the complex number (a - c x) + i b |v|, along v it is a;
   /// what inverts both is again of the form of W.
-  Vec<T, 3> solve(const Vec<T, 3>& v, const Vec<T, 3>& t, T x) const noexcept {
+  GSLAM_ALWAYS_INLINE Vec<T, 3> solve(const Vec<T, 3>& v, const Vec<T, 3>& t, T x) const noexcept {
     const T inverse = 1 / a;  // first, so that scales near the ends of T's range do not overflow
     const T bb = b * inverse;
     const T cc = c * inverse;

@@ -1,6 +1,7 @@
 #ifndef GSLAM_GEOMETRY_DETAIL_STUMPFF_H
 #define GSLAM_GEOMETRY_DETAIL_STUMPFF_H
 
+#include <gslam/base/platform.h>
 #include <gslam/geometry/detail/pair.h>
 
 #include <cmath>
@@ -100,17 +101,19 @@ struct Stumpff {
   T c2, c3, c4, c5;
 
   /// For a rotation of any angle; x >= 0.
-  static Stumpff at(T x) noexcept { return x <= nearSquare<T>() ? near(x) : far(x); }
+  static GSLAM_ALWAYS_INLINE Stumpff at(T x) noexcept {
+    return x <= nearSquare<T>() ? near(x) : far(x);
+  }
 
  private:
-  static Stumpff near(T x) noexcept {
+  static GSLAM_ALWAYS_INLINE Stumpff near(T x) noexcept {
     const Pair<T> c54 = stumpff54(x);
     const T c4 = c54.second();
     const T c5 = c54.first();
     return {T(0.5) - x * c4, T(1.0 / 6) - x * c5, c4, c5};
   }
   // The recurrence the other way: from 3 radians on nothing cancels.
-  static Stumpff far(T x) noexcept {
+  GSLAM_COLD static Stumpff far(T x) noexcept {
     const T angle = std::sqrt(x);
     const T c2 = (1 - std::cos(angle)) / x;
     const T c3 = (1 - std::sin(angle) / angle) / x;

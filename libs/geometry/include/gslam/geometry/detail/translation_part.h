@@ -2,6 +2,7 @@
 #define GSLAM_GEOMETRY_DETAIL_TRANSLATION_PART_H
 
 #include <gslam/base/error.h>
+#include <gslam/base/platform.h>
 #include <gslam/geometry/detail/stumpff.h>
 #include <gslam/geometry/mat.h>
 #include <gslam/geometry/vec.h>
@@ -17,13 +18,14 @@ namespace detail {
 
 /// The matrix a I + b hat(v) + c hat(v)^2 times r.
 template <class T>
-Vec<T, 3> mixed(T a, T b, T c, const Vec<T, 3>& v, const Vec<T, 3>& r) noexcept {
+GSLAM_ALWAYS_INLINE Vec<T, 3> mixed(T a, T b, T c, const Vec<T, 3>& v,
+                                    const Vec<T, 3>& r) noexcept {
   const Vec<T, 3> once = v.cross(r);
   return a * r + b * once + c * v.cross(once);
 }
 /// The same with a = 1.
 template <class T>
-Vec<T, 3> mixed(T b, T c, const Vec<T, 3>& v, const Vec<T, 3>& r) noexcept {
+GSLAM_ALWAYS_INLINE Vec<T, 3> mixed(T b, T c, const Vec<T, 3>& v, const Vec<T, 3>& r) noexcept {
   const Vec<T, 3> once = v.cross(r);
   return r + b * once + c * v.cross(once);
 }
@@ -37,28 +39,23 @@ Vec<T, 3> mixed(T b, T c, const Vec<T, 3>& v, const Vec<T, 3>& r) noexcept {
 /// It is what T. Barfoot, "State Estimation for Robotics", gives for SE3 as (7.86).
 /// @param db, dc  twice the derivatives of b and c by |v|^2
 template <class T>
-Mat<T, 3, 3> leftTranslationBlock(const Vec<T, 3>& v, const Vec<T, 3>& r, const Vec<T, 3>& t, T b,
-                                  T c, T db, T dc, const Stumpff<T>& s) noexcept {
-  const T x = v.squaredNorm();
+GSLAM_ALWAYS_INLINE Mat<T, 3, 3> leftTranslationBlock(const Vec<T, 3>& v, const Vec<T, 3>& r, T a,
+                                                      T b, T c, T db, T dc,
+                                                      const Stumpff<T>& s) noexcept {
   const Vec<T, 3> once = v.cross(r);
   const Vec<T, 3> twice = v.cross(once);
+  const Vec<T, 3> t = a * r + b * once + c * twice;
   // All that stands before v^T, and before r^T and t^T.
   const Vec<T, 3> w = db * once + dc * twice + s.c3 * t.cross(v) - (2 * c) * r;
   const Vec<T, 3> y = c * r + s.c2 * t;
   const T one = c * v.dot(r) - s.c2 * v.dot(t);
-  const Vec<T, 3> skew = (1 - x * s.c3) * t - b * r;
-  Mat<T, 3, 3> q;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) q(i, j) = w[i] * v[j] + v[i] * y[j];
-    q(i, i) += one;
-  }
-  q(0, 1) -= skew[2];
-  q(0, 2) += skew[1];
-  q(1, 0) += skew[2];
-  q(1, 2) -= skew[0];
-  q(2, 0) -= skew[1];
-  q(2, 1) += skew[0];
-  return q;
+  const Vec<T, 3> k = (1 - v.squaredNorm() * s.c3) * t - b * r;
+  return {{one + w[0] * v[0] + v[0] * y[0], w[0] * v[1] + v[0] * y[1] - k[2],
+           w[0] * v[2] + v[0] * y[2] + k[1],  //
+           w[1] * v[0] + v[1] * y[0] + k[2], one + w[1] * v[1] + v[1] * y[1],
+           w[1] * v[2] + v[1] * y[2] - k[0],  //
+           w[2] * v[0] + v[2] * y[0] - k[1], w[2] * v[1] + v[2] * y[1] + k[0],
+           one + w[2] * v[2] + v[2] * y[2]}};
 }
 
 /// For what exp of SE3 and SIM3 need beside the rotation.
