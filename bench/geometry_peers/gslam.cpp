@@ -34,6 +34,19 @@ struct Rotation : Ours<So3, gslam::SO3d> {
   }
 };
 
+struct Rigid : Ours<Se3, gslam::SE3d> {
+  static Group make(const Element& e) { return {Rotation::make(e), point(e.translation.data())}; }
+  static auto leftJacobian(const Tangent& v) { return Group::leftJacobian(v); }
+};
+
+struct Similar : Ours<Sim3, gslam::SIM3d> {
+  static Group make(const Element& e) {
+    return {Rotation::make(e), point(e.translation.data()), e.scale};
+  }
+};
+
 const auto kSo3 = Cases<Rotation>("gslam").mult().trans().exp().log().inverse();
+const auto kSe3 = Cases<Rigid>("gslam").mult().trans().exp().log().inverse().leftJacobian();
+const auto kSim3 = Cases<Similar>("gslam").mult().trans().exp().log().inverse();
 
 }  // namespace

@@ -118,7 +118,7 @@ class Cases {
           [](const auto& jacobian, std::size_t i) {
             const Square<6> expected = first()[i].leftJacobian();
             bool is_right = true;
-            for (int k = 0; k < 36; ++k) {
+            for (std::size_t k = 0; k < 36; ++k) {
               is_right = is_right && isNear(jacobian(k / 6, k % 6), expected[k / 6][k % 6]);
             }
             return is_right;
