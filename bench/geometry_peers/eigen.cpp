@@ -1,28 +1,81 @@
+// Eigen's quaternion; with a translation and a scale beside it, as its users do by hand. Eigen has
+// no exp and log of groups; those of rotations are what its users write.
 #include <Eigen/Geometry>
 
-#include "rotations.h"
+#include "elements.h"
+#include "measure.h"
 
 namespace {
 
-// Eigen has no exp and log of rotations; these are what its users write.
-struct EigenQuaternion {
-  using Rotation = Eigen::Quaterniond;
-  using Vector = Eigen::Vector3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
 
-  static Vector vector(double x, double y, double z) { return Vector(x, y, z); }
-  static Rotation exp(const Vector& v) {
-    const double angle = v.norm();
-    return Rotation(Eigen::AngleAxisd(angle, v / angle));
-  }
-  static Vector log(const Rotation& r) {
-    const Eigen::AngleAxisd angle_axis(r);
-    return angle_axis.angle() * angle_axis.axis();
-  }
-  static Rotation inverse(const Rotation& r) { return r.conjugate(); }
-  static Rotation mult(const Rotation& a, const Rotation& b) { return a * b; }
-  static Vector act(const Rotation& r, const Vector& v) { return r * v; }
+struct Points {
+  using Point = Vector3d;
+  static Point point(const double* p) { return Point(p[0], p[1], p[2]); }
 };
 
-PEER(EigenQuaternion, "eigen");
+struct Rotation : So3, Points {
+  using Group = Quaterniond;
+  using Tangent = Vector3d;
+
+  static Group make(const Element& e) { return Group(e.quaternion.data()); }
+  static Tangent tangent(const double* v) { return Tangent(v[0], v[1], v[2]); }
+  static Group mult(const Group& a, const Group& b) { return a * b; }
+  static Point trans(const Group& a, const Point& p) { return a * p; }
+  static Group exp(const Tangent& v) {
+    const double angle = v.norm();
+    return Group(Eigen::AngleAxisd(angle, v / angle));
+  }
+  static Tangent log(const Group& a) {
+    const Eigen::AngleAxisd angle_axis(a);
+    return angle_axis.angle() * angle_axis.axis();
+  }
+  static Group inverse(const Group& a) { return a.conjugate(); }
+};
+
+struct RigidPair {
+  Quaterniond q;
+  Vector3d t;
+};
+
+struct Rigid : Se3, Points {
+  using Group = RigidPair;
+
+  static Group make(const Element& e) { return {Rotation::make(e), point(e.translation.data())}; }
+  static Group mult(const Group& a, const Group& b) { return {a.q * b.q, a.q * b.t + a.t}; }
+  static Point trans(const Group& a, const Point& p) { return a.q * p + a.t; }
+  static Group inverse(const Group& a) {
+    const Quaterniond q = a.q.conjugate();
+    return {q, -(q * a.t)};
+  }
+};
+
+struct SimilarTriple {
+  Quaterniond q;
+  Vector3d t;
+  double s;
+};
+
+struct Similar : Sim3, Points {
+  using Group = SimilarTriple;
+
+  static Group make(const Element& e) {
+    return {Rotation::make(e), point(e.translation.data()), e.scale};
+  }
+  static Group mult(const Group& a, const Group& b) {
+    return {a.q * b.q, a.s * (a.q * b.t) + a.t, a.s * b.s};
+  }
+  static Point trans(const Group& a, const Point& p) { return a.s * (a.q * p) + a.t; }
+  static Group inverse(const Group& a) {
+    const Quaterniond q = a.q.conjugate();
+    const double s = 1 / a.s;
+    return {q, -s * (q * a.t), s};
+  }
+};
+
+const auto kSo3 = Cases<Rotation>("eigen").mult().trans().exp().log().inverse();
+const auto kSe3 = Cases<Rigid>("eigen").mult().trans().inverse();
+const auto kSim3 = Cases<Similar>("eigen").mult().trans().inverse();
 
 }  // namespace

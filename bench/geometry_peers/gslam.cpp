@@ -1,21 +1,52 @@
 #include <gslam/geometry.h>
 
-#include "rotations.h"
+#include <algorithm>
+#include <cstddef>
+
+#include "elements.h"
+#include "measure.h"
 
 namespace {
 
-struct Gslam {
-  using Rotation = gslam::SO3d;
-  using Vector = gslam::Vec3d;
+template <class Kind, class Transform>
+struct Ours : Kind {
+  using Group = Transform;
+  using Point = gslam::Vec3d;
+  using Tangent = gslam::Vec<double, Kind::kSize>;
 
-  static Vector vector(double x, double y, double z) { return Vector{x, y, z}; }
-  static Rotation exp(const Vector& v) { return Rotation::exp(v); }
-  static Vector log(const Rotation& r) { return r.log(); }
-  static Rotation inverse(const Rotation& r) { return r.inverse(); }
-  static Rotation mult(const Rotation& a, const Rotation& b) { return a * b; }
-  static Vector act(const Rotation& r, const Vector& v) { return r * v; }
+  static Point point(const double* p) { return Point{p[0], p[1], p[2]}; }
+  static Tangent tangent(const double* v) {
+    Tangent result;
+    std::copy(v, v + Kind::kSize, result.data());
+    return result;
+  }
+  static Group mult(const Group& a, const Group& b) { return a * b; }
+  static Point trans(const Group& a, const Point& p) { return a * p; }
+  static Group exp(const Tangent& v) { return Group::exp(v); }
+  static Tangent log(const Group& a) { return a.log(); }
+  static Group inverse(const Group& a) { return a.inverse(); }
 };
 
-PEER(Gslam, "gslam");
+struct Rotation : Ours<So3, gslam::SO3d> {
+  static Group make(const Element& e) {
+    return Group::fromQuaternion(e.quaternion[0], e.quaternion[1], e.quaternion[2],
+                                 e.quaternion[3]);
+  }
+};
+
+struct Rigid : Ours<Se3, gslam::SE3d> {
+  static Group make(const Element& e) { return {Rotation::make(e), point(e.translation.data())}; }
+  static auto leftJacobian(const Tangent& v) { return Group::leftJacobian(v); }
+};
+
+struct Similar : Ours<Sim3, gslam::SIM3d> {
+  static Group make(const Element& e) {
+    return {Rotation::make(e), point(e.translation.data()), e.scale};
+  }
+};
+
+const auto kSo3 = Cases<Rotation>("gslam").mult().trans().exp().log().inverse();
+const auto kSe3 = Cases<Rigid>("gslam").mult().trans().exp().log().inverse().leftJacobian();
+const auto kSim3 = Cases<Similar>("gslam").mult().trans().exp().log().inverse();
 
 }  // namespace

@@ -1,21 +1,48 @@
+#include <sophus/se3.hpp>
+#include <sophus/sim3.hpp>
 #include <sophus/so3.hpp>
 
-#include "rotations.h"
+#include "elements.h"
+#include "measure.h"
 
 namespace {
 
-struct Sophus3 {
-  using Rotation = Sophus::SO3d;
-  using Vector = Eigen::Vector3d;
+template <class Kind, class Transform>
+struct Peer : Kind {
+  using Group = Transform;
+  using Point = Eigen::Vector3d;
+  using Tangent = typename Group::Tangent;
 
-  static Vector vector(double x, double y, double z) { return Vector(x, y, z); }
-  static Rotation exp(const Vector& v) { return Rotation::exp(v); }
-  static Vector log(const Rotation& r) { return r.log(); }
-  static Rotation inverse(const Rotation& r) { return r.inverse(); }
-  static Rotation mult(const Rotation& a, const Rotation& b) { return a * b; }
-  static Vector act(const Rotation& r, const Vector& v) { return r * v; }
+  static Point point(const double* p) { return Point(p[0], p[1], p[2]); }
+  static Tangent tangent(const double* v) { return Eigen::Map<const Tangent>(v); }
+  static Group mult(const Group& a, const Group& b) { return a * b; }
+  static Point trans(const Group& a, const Point& p) { return a * p; }
+  static void transMany(const Group& a, const Point* p, std::size_t n, Point* to) {
+    transOneByOne<Peer>(a, p, n, to);
+  }
+  static Group exp(const Tangent& v) { return Group::exp(v); }
+  static Tangent log(const Group& a) { return a.log(); }
+  static Group inverse(const Group& a) { return a.inverse(); }
 };
 
-PEER(Sophus3, "sophus");
+struct Rotation : Peer<So3, Sophus::SO3d> {
+  static Group make(const Element& e) { return Group(Eigen::Quaterniond(e.quaternion.data())); }
+};
+
+struct Rigid : Peer<Se3, Sophus::SE3d> {
+  static Group make(const Element& e) { return {Rotation::make(e), point(e.translation.data())}; }
+  static auto leftJacobian(const Tangent& v) { return Group::leftJacobian(v); }
+};
+
+struct Similar : Peer<Sim3, Sophus::Sim3d> {
+  static Group make(const Element& e) {
+    return Group(e.scale, Eigen::Quaterniond(e.quaternion.data()), point(e.translation.data()));
+  }
+};
+
+const auto kSo3 = Cases<Rotation>("sophus").mult().trans().transMany().exp().log().inverse();
+const auto kSe3 =
+    Cases<Rigid>("sophus").mult().trans().transMany().exp().log().inverse().leftJacobian();
+const auto kSim3 = Cases<Similar>("sophus").mult().trans().transMany().exp().log().inverse();
 
 }  // namespace
