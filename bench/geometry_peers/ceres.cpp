@@ -19,34 +19,34 @@ struct Quaternion : So3, Points {
     return {e.quaternion[3], e.quaternion[0], e.quaternion[1], e.quaternion[2]};
   }
   static Tangent tangent(const double* v) { return point(v); }
-  static Group mult(const Group& a, const Group& b) {
+  BENCH_INLINE static Group mult(const Group& a, const Group& b) {
     Group result;
     ceres::QuaternionProduct(a.data(), b.data(), result.data());
     return result;
   }
-  static Point trans(const Group& a, const Point& p) {
+  BENCH_INLINE static Point trans(const Group& a, const Point& p) {
     Point result;
     ceres::UnitQuaternionRotatePoint(a.data(), p.data(), result.data());
     return result;
   }
-  static Group exp(const Tangent& v) {
+  BENCH_INLINE static Group exp(const Tangent& v) {
     Group result;
     ceres::AngleAxisToQuaternion(v.data(), result.data());
     return result;
   }
-  static Tangent log(const Group& a) {
+  BENCH_INLINE static Tangent log(const Group& a) {
     Tangent result;
     ceres::QuaternionToAngleAxis(a.data(), result.data());
     return result;
   }
-  static Group inverse(const Group& a) { return {a[0], -a[1], -a[2], -a[3]}; }
+  BENCH_INLINE static Group inverse(const Group& a) { return {a[0], -a[1], -a[2], -a[3]}; }
 };
 
 struct AngleAxis : So3, Points {
   using Group = Xyz;
 
   static Group make(const Element& e) { return point(&e.tangent[kFirst]); }
-  static Point trans(const Group& a, const Point& p) {
+  BENCH_INLINE static Point trans(const Group& a, const Point& p) {
     Point result;
     ceres::AngleAxisRotatePoint(a.data(), p.data(), result.data());
     return result;

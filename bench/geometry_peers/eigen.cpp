@@ -21,17 +21,17 @@ struct Rotation : So3, Points {
 
   static Group make(const Element& e) { return Group(e.quaternion.data()); }
   static Tangent tangent(const double* v) { return Tangent(v[0], v[1], v[2]); }
-  static Group mult(const Group& a, const Group& b) { return a * b; }
-  static Point trans(const Group& a, const Point& p) { return a * p; }
-  static Group exp(const Tangent& v) {
+  BENCH_INLINE static Group mult(const Group& a, const Group& b) { return a * b; }
+  BENCH_INLINE static Point trans(const Group& a, const Point& p) { return a * p; }
+  BENCH_INLINE static Group exp(const Tangent& v) {
     const double angle = v.norm();
     return Group(Eigen::AngleAxisd(angle, v / angle));
   }
-  static Tangent log(const Group& a) {
+  BENCH_INLINE static Tangent log(const Group& a) {
     const Eigen::AngleAxisd angle_axis(a);
     return angle_axis.angle() * angle_axis.axis();
   }
-  static Group inverse(const Group& a) { return a.conjugate(); }
+  BENCH_INLINE static Group inverse(const Group& a) { return a.conjugate(); }
 };
 
 struct RigidPair {
@@ -43,9 +43,11 @@ struct Rigid : Se3, Points {
   using Group = RigidPair;
 
   static Group make(const Element& e) { return {Rotation::make(e), point(e.translation.data())}; }
-  static Group mult(const Group& a, const Group& b) { return {a.q * b.q, a.q * b.t + a.t}; }
-  static Point trans(const Group& a, const Point& p) { return a.q * p + a.t; }
-  static Group inverse(const Group& a) {
+  BENCH_INLINE static Group mult(const Group& a, const Group& b) {
+    return {a.q * b.q, a.q * b.t + a.t};
+  }
+  BENCH_INLINE static Point trans(const Group& a, const Point& p) { return a.q * p + a.t; }
+  BENCH_INLINE static Group inverse(const Group& a) {
     const Quaterniond q = a.q.conjugate();
     return {q, -(q * a.t)};
   }
@@ -63,11 +65,11 @@ struct Similar : Sim3, Points {
   static Group make(const Element& e) {
     return {Rotation::make(e), point(e.translation.data()), e.scale};
   }
-  static Group mult(const Group& a, const Group& b) {
+  BENCH_INLINE static Group mult(const Group& a, const Group& b) {
     return {a.q * b.q, a.s * (a.q * b.t) + a.t, a.s * b.s};
   }
-  static Point trans(const Group& a, const Point& p) { return a.s * (a.q * p) + a.t; }
-  static Group inverse(const Group& a) {
+  BENCH_INLINE static Point trans(const Group& a, const Point& p) { return a.s * (a.q * p) + a.t; }
+  BENCH_INLINE static Group inverse(const Group& a) {
     const Quaterniond q = a.q.conjugate();
     const double s = 1 / a.s;
     return {q, -s * (q * a.t), s};

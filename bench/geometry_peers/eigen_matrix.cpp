@@ -13,8 +13,8 @@ struct Matrix : Kind {
   using Point = Eigen::Vector3d;
 
   static Point point(const double* p) { return Point(p[0], p[1], p[2]); }
-  static Group mult(const Group& a, const Group& b) { return a * b; }
-  static Point trans(const Group& a, const Point& p) { return a * p; }
+  BENCH_INLINE static Group mult(const Group& a, const Group& b) { return a * b; }
+  BENCH_INLINE static Point trans(const Group& a, const Point& p) { return a * p; }
   static void transMany(const Group& a, const Point* p, std::size_t n, Point* to) {
     transOneByOne<Matrix>(a, p, n, to);
   }
@@ -35,23 +35,23 @@ struct Rotation : Matrix<So3, Eigen::Matrix3d> {
 
   static Group make(const Element& e) { return linear(e); }
   static Tangent tangent(const double* v) { return point(v); }
-  static Group exp(const Tangent& v) {
+  BENCH_INLINE static Group exp(const Tangent& v) {
     const double angle = v.norm();
     return Eigen::AngleAxisd(angle, v / angle).toRotationMatrix();
   }
-  static Tangent log(const Group& a) {
+  BENCH_INLINE static Tangent log(const Group& a) {
     const Eigen::AngleAxisd angle_axis(a);
     return angle_axis.angle() * angle_axis.axis();
   }
-  static Group inverse(const Group& a) { return a.transpose(); }
+  BENCH_INLINE static Group inverse(const Group& a) { return a.transpose(); }
 };
 
 struct Rigid : Matrix<Se3, Eigen::Isometry3d> {
-  static Group inverse(const Group& a) { return a.inverse(); }
+  BENCH_INLINE static Group inverse(const Group& a) { return a.inverse(); }
 };
 
 struct Similar : Matrix<Sim3, Eigen::Affine3d> {
-  static Group inverse(const Group& a) { return a.inverse(); }
+  BENCH_INLINE static Group inverse(const Group& a) { return a.inverse(); }
 };
 
 struct RotationAndTranslation {
@@ -66,12 +66,16 @@ struct Pair : Se3 {
 
   static Point point(const double* p) { return Rigid::point(p); }
   static Group make(const Element& e) { return {Rotation::make(e), point(e.translation.data())}; }
-  static Group mult(const Group& a, const Group& b) { return {a.r * b.r, a.r * b.t + a.t}; }
-  static Point trans(const Group& a, const Point& p) { return a.r * p + a.t; }
+  BENCH_INLINE static Group mult(const Group& a, const Group& b) {
+    return {a.r * b.r, a.r * b.t + a.t};
+  }
+  BENCH_INLINE static Point trans(const Group& a, const Point& p) { return a.r * p + a.t; }
   static void transMany(const Group& a, const Point* p, std::size_t n, Point* to) {
     transOneByOne<Pair>(a, p, n, to);
   }
-  static Group inverse(const Group& a) { return {a.r.transpose(), -(a.r.transpose() * a.t)}; }
+  BENCH_INLINE static Group inverse(const Group& a) {
+    return {a.r.transpose(), -(a.r.transpose() * a.t)};
+  }
 };
 
 /// The points as a 3 x n matrix.

@@ -9,6 +9,14 @@
 #include <random>
 #include <vector>
 
+/// Before the functions with which a peer does an operation, so that a call of them is not
+/// measured. What they call is inlined or not as it would be in a user's program.
+#if defined(__GNUC__) || defined(__clang__)
+#define BENCH_INLINE __attribute__((always_inline))
+#else
+#define BENCH_INLINE
+#endif
+
 constexpr std::size_t kElements = 1024;
 
 /// Which of the seven numbers of a tangent (translation, rotation, log scale) a group has.

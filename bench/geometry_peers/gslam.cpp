@@ -20,11 +20,11 @@ struct Ours : Kind {
     std::copy(v, v + Kind::kSize, result.data());
     return result;
   }
-  static Group mult(const Group& a, const Group& b) { return a * b; }
-  static Point trans(const Group& a, const Point& p) { return a * p; }
-  static Group exp(const Tangent& v) { return Group::exp(v); }
-  static Tangent log(const Group& a) { return a.log(); }
-  static Group inverse(const Group& a) { return a.inverse(); }
+  BENCH_INLINE static Group mult(const Group& a, const Group& b) { return a * b; }
+  BENCH_INLINE static Point trans(const Group& a, const Point& p) { return a * p; }
+  BENCH_INLINE static Group exp(const Tangent& v) { return Group::exp(v); }
+  BENCH_INLINE static Tangent log(const Group& a) { return a.log(); }
+  BENCH_INLINE static Group inverse(const Group& a) { return a.inverse(); }
 };
 
 struct Rotation : Ours<So3, gslam::SO3d> {
@@ -36,7 +36,7 @@ struct Rotation : Ours<So3, gslam::SO3d> {
 
 struct Rigid : Ours<Se3, gslam::SE3d> {
   static Group make(const Element& e) { return {Rotation::make(e), point(e.translation.data())}; }
-  static auto leftJacobian(const Tangent& v) { return Group::leftJacobian(v); }
+  BENCH_INLINE static auto leftJacobian(const Tangent& v) { return Group::leftJacobian(v); }
 };
 
 struct Similar : Ours<Sim3, gslam::SIM3d> {

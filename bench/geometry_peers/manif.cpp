@@ -17,14 +17,14 @@ struct Peer : Kind {
   static Tangent tangent(const double* v) {
     return Tangent(Eigen::Map<const typename Tangent::DataType>(v));
   }
-  static Group mult(const Group& a, const Group& b) { return a * b; }
-  static Point trans(const Group& a, const Point& p) { return a.act(p); }
+  BENCH_INLINE static Group mult(const Group& a, const Group& b) { return a * b; }
+  BENCH_INLINE static Point trans(const Group& a, const Point& p) { return a.act(p); }
   static void transMany(const Group& a, const Point* p, std::size_t n, Point* to) {
     transOneByOne<Peer>(a, p, n, to);
   }
-  static Group exp(const Tangent& v) { return v.exp(); }
-  static Tangent log(const Group& a) { return a.log(); }
-  static Group inverse(const Group& a) { return a.inverse(); }
+  BENCH_INLINE static Group exp(const Tangent& v) { return v.exp(); }
+  BENCH_INLINE static Tangent log(const Group& a) { return a.log(); }
+  BENCH_INLINE static Group inverse(const Group& a) { return a.inverse(); }
 };
 
 struct Rotation : Peer<So3, manif::SO3d> {
@@ -33,7 +33,7 @@ struct Rotation : Peer<So3, manif::SO3d> {
 
 struct Rigid : Peer<Se3, manif::SE3d> {
   static Group make(const Element& e) { return {point(e.translation.data()), Rotation::make(e)}; }
-  static auto leftJacobian(const Tangent& v) { return v.ljac(); }
+  BENCH_INLINE static auto leftJacobian(const Tangent& v) { return v.ljac(); }
 };
 
 const auto kSo3 = Cases<Rotation>("manif").mult().trans().transMany().exp().log().inverse();

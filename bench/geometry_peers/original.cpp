@@ -14,12 +14,12 @@ struct Original : Kind {
   using Tangent = Vector;
 
   static Point point(const double* p) { return Point(p[0], p[1], p[2]); }
-  static Group mult(const Group& a, const Group& b) { return a * b; }
-  static Point trans(const Group& a, const Point& p) { return a * p; }
+  BENCH_INLINE static Group mult(const Group& a, const Group& b) { return a * b; }
+  BENCH_INLINE static Point trans(const Group& a, const Point& p) { return a * p; }
   static void transMany(const Group& a, const Point* p, std::size_t n, Point* to) {
     transOneByOne<Original>(a, p, n, to);
   }
-  static Tangent log(const Group& a) { return a.log(); }
+  BENCH_INLINE static Tangent log(const Group& a) { return a.log(); }
 };
 
 struct Rotation : Original<So3, GSLAM::SO3d, GSLAM::Point3d> {
@@ -27,15 +27,15 @@ struct Rotation : Original<So3, GSLAM::SO3d, GSLAM::Point3d> {
     return {e.quaternion[0], e.quaternion[1], e.quaternion[2], e.quaternion[3]};
   }
   static Tangent tangent(const double* v) { return point(v); }
-  static Group exp(const Tangent& v) { return Group::exp(v); }
-  static Group inverse(const Group& a) { return a.inverse(); }
+  BENCH_INLINE static Group exp(const Tangent& v) { return Group::exp(v); }
+  BENCH_INLINE static Group inverse(const Group& a) { return a.inverse(); }
 };
 
 struct Rigid : Original<Se3, GSLAM::SE3d, GSLAM::Vector<double, 6>> {
   static Group make(const Element& e) { return {Rotation::make(e), point(e.translation.data())}; }
   static Tangent tangent(const double* v) { return Tangent(v); }
-  static Group exp(const Tangent& v) { return Group::exp(v); }
-  static Group inverse(const Group& a) { return a.inverse(); }
+  BENCH_INLINE static Group exp(const Tangent& v) { return Group::exp(v); }
+  BENCH_INLINE static Group inverse(const Group& a) { return a.inverse(); }
 };
 
 struct Similar : Original<Sim3, GSLAM::SIM3d, GSLAM::Vector<double, 7>> {
@@ -43,7 +43,7 @@ struct Similar : Original<Sim3, GSLAM::SIM3d, GSLAM::Vector<double, 7>> {
     return {Rotation::make(e), point(e.translation.data()), e.scale};
   }
   static Tangent tangent(const double* v) { return Tangent(v); }
-  static Group exp(const Tangent& v) { return Group::exp(v); }
+  BENCH_INLINE static Group exp(const Tangent& v) { return Group::exp(v); }
 };
 
 const auto kSo3 = Cases<Rotation>("original").mult().trans().transMany().exp().log().inverse();

@@ -15,14 +15,14 @@ struct Peer : Kind {
 
   static Point point(const double* p) { return Point(p[0], p[1], p[2]); }
   static Tangent tangent(const double* v) { return Eigen::Map<const Tangent>(v); }
-  static Group mult(const Group& a, const Group& b) { return a * b; }
-  static Point trans(const Group& a, const Point& p) { return a * p; }
+  BENCH_INLINE static Group mult(const Group& a, const Group& b) { return a * b; }
+  BENCH_INLINE static Point trans(const Group& a, const Point& p) { return a * p; }
   static void transMany(const Group& a, const Point* p, std::size_t n, Point* to) {
     transOneByOne<Peer>(a, p, n, to);
   }
-  static Group exp(const Tangent& v) { return Group::exp(v); }
-  static Tangent log(const Group& a) { return a.log(); }
-  static Group inverse(const Group& a) { return a.inverse(); }
+  BENCH_INLINE static Group exp(const Tangent& v) { return Group::exp(v); }
+  BENCH_INLINE static Tangent log(const Group& a) { return a.log(); }
+  BENCH_INLINE static Group inverse(const Group& a) { return a.inverse(); }
 };
 
 struct Rotation : Peer<So3, Sophus::SO3d> {
@@ -31,7 +31,7 @@ struct Rotation : Peer<So3, Sophus::SO3d> {
 
 struct Rigid : Peer<Se3, Sophus::SE3d> {
   static Group make(const Element& e) { return {Rotation::make(e), point(e.translation.data())}; }
-  static auto leftJacobian(const Tangent& v) { return Group::leftJacobian(v); }
+  BENCH_INLINE static auto leftJacobian(const Tangent& v) { return Group::leftJacobian(v); }
 };
 
 struct Similar : Peer<Sim3, Sophus::Sim3d> {

@@ -17,14 +17,14 @@ struct Toon : Kind {
 
   static Point point(const double* p) { return TooN::makeVector(p[0], p[1], p[2]); }
   static Tangent tangent(const double* v) { return TooN::wrapVector<Kind::kSize>(v); }
-  static Group mult(const Group& a, const Group& b) { return a * b; }
-  static Point trans(const Group& a, const Point& p) { return a * p; }
+  BENCH_INLINE static Group mult(const Group& a, const Group& b) { return a * b; }
+  BENCH_INLINE static Point trans(const Group& a, const Point& p) { return a * p; }
   static void transMany(const Group& a, const Point* p, std::size_t n, Point* to) {
     transOneByOne<Toon>(a, p, n, to);
   }
-  static Group exp(const Tangent& v) { return Group::exp(v); }
-  static Tangent log(const Group& a) { return a.ln(); }
-  static Group inverse(const Group& a) { return a.inverse(); }
+  BENCH_INLINE static Group exp(const Tangent& v) { return Group::exp(v); }
+  BENCH_INLINE static Tangent log(const Group& a) { return a.ln(); }
+  BENCH_INLINE static Group inverse(const Group& a) { return a.inverse(); }
 };
 
 struct Rotation : Toon<So3, TooN::SO3<>> {

@@ -50,8 +50,8 @@ class SE3 {
   /// The identity.
   SE3() noexcept : translation_() {}
   /// p' = rotation p + translation.
-  SE3(const SO3<T>& rotation, const Vec<T, 3>& translation)
-  noexcept : rotation_(rotation), translation_(translation) {}
+  GSLAM_ALWAYS_INLINE SE3(const SO3<T>& rotation, const Vec<T, 3>& translation) noexcept
+      : rotation_(rotation), translation_(translation) {}
 
   /// The identity.
   static SE3 identity() noexcept { return SE3(); }
@@ -101,20 +101,22 @@ class SE3 {
   }
 
   /// The way back: T_b_a of T_a_b.
-  SE3 inverse() const noexcept {
-    const SO3<T> back = rotation_.inverse();
-    return SE3(back, back * -translation_);
+  GSLAM_ALWAYS_INLINE SE3 inverse() const noexcept {
+    return SE3(rotation_.inverse(), detail::oppositeRotatedBack(data(), translation_));
   }
 
   /// First `other`, then this one.
-  SE3 operator*(const SE3& other) const noexcept {
-    return SE3(rotation_ * other.rotation_, rotation_ * other.translation_ + translation_);
+  GSLAM_ALWAYS_INLINE SE3 operator*(const SE3& other) const noexcept {
+    return SE3(rotation_ * other.rotation_, *this * other.translation_);
   }
   /// This one is followed by `other` on the right: `a = a * other`.
   SE3& operator*=(const SE3& other) noexcept { return *this = *this * other; }
 
   /// The transformed point, R p + t. (Directions are turned by rotation().)
-  Point operator*(const Point& p) const noexcept { return rotation_ * p + translation_; }
+  GSLAM_ALWAYS_INLINE Point operator*(const Point& p) const noexcept {
+    const Vec<T, 3> r = rotation_ * p;
+    return {{r[0] + translation_[0], r[1] + translation_[1], r[2] + translation_[2]}};
+  }
 
   /// The transformed plane: for (n, d) with n p + d = 0, the one through the transformed points.
   Vec<T, 4> transformPlane(const Vec<T, 4>& plane) const noexcept {
@@ -264,8 +266,10 @@ class SE3 {
   Vec<T, 3> translation_;
 };
 
+#if __cplusplus < 201703L  // from then on the declaration is a definition
 template <class T>
 constexpr std::size_t SE3<T>::kFreedom;
+#endif
 
 using SE3d = SE3<double>;  ///< double
 using SE3f = SE3<float>;   ///< float

@@ -48,14 +48,15 @@ class SIM3 {
   using Jacobian = Mat<T, 7, 7>;              ///< tangents to tangents
 
   /// The identity.
-  SIM3() noexcept : scale_(1) {}
+  SIM3() noexcept : translation_scale_{{T(0), T(0), T(0), T(1)}} {}
   /// p' = scale rotation p + translation.
   /// @throws ArgumentError when the scale is not finite and above 0
   SIM3(const SO3<T>& rotation, const Vec<T, 3>& translation, T scale)
-      : rigid_(rotation, translation), scale_(checkedScale(scale)) {}
+      : SIM3(rotation, translation, checkedScale(scale), Unchecked()) {}
   /// A rigid transform with a scale for what it acts on.
   /// @throws ArgumentError when the scale is not finite and above 0
-  explicit SIM3(const SE3<T>& rigid, T scale = T(1)) : rigid_(rigid), scale_(checkedScale(scale)) {}
+  explicit SIM3(const SE3<T>& rigid, T scale = T(1))
+      : SIM3(rigid.rotation(), rigid.translation(), scale) {}
 
   /// The identity.
   static SIM3 identity() noexcept { return SIM3(); }
@@ -95,14 +96,14 @@ class SIM3 {
     const auto m = detail::ExponentialIntegrals<T>::near(s);
     const auto w =
         detail::SimilarityPart<T>::at(s, x, m, c2, T(1.0 / 6) - x * c54.first(), c54.second());
-    return SIM3(SE3<T>(SO3<T>(detail::quaternionOfNearVector(v, c10)), w(v, r)), m.e, Unchecked());
+    return SIM3(SO3<T>(detail::quaternionOfNearVector(v, c10)), w(v, r), m.e, Unchecked());
   }
 
   /// The tangent of the shortest rotation, its angle from 0 to pi (Eade 157). A half turn has two;
   /// one of them is given. Never fails.
   GSLAM_ALWAYS_INLINE Tangent log() const noexcept {
     const Vec<T, 3> v = rotation().log();
-    const T s = std::log(scale_);
+    const T s = std::log(scale());
     const T x = v.squaredNorm();
     const auto w = detail::SimilarityPart<T>::at(s, x, detail::ExponentialIntegrals<T>::at(s));
     const Vec<T, 3> r = w.solve(v, translation(), x);
@@ -110,58 +111,64 @@ class SIM3 {
   }
 
   /// The way back: S_b_a of S_a_b.
-  SIM3 inverse() const noexcept {
-    const SO3<T> back = rotation().inverse();
-    const T scale = 1 / scale_;
-    return SIM3(SE3<T>(back, back * (-scale * translation())), scale, Unchecked());
+  GSLAM_ALWAYS_INLINE SIM3 inverse() const noexcept {
+    const Vec<T, 3> t = detail::oppositeRotatedBack(data(), translation());
+    const T back = 1 / scale();
+    return SIM3(rotation_.inverse(), {{back * t[0], back * t[1], back * t[2]}}, back, Unchecked());
   }
 
   /// First `other`, then this one.
-  SIM3 operator*(const SIM3& other) const noexcept {
-    return SIM3(SE3<T>(rotation() * other.rotation(), *this * other.translation()),
-                scale_ * other.scale_, Unchecked());
+  GSLAM_ALWAYS_INLINE SIM3 operator*(const SIM3& other) const noexcept {
+    return SIM3(rotation_ * other.rotation_, *this * other.translation(), scale() * other.scale(),
+                Unchecked());
   }
   /// This one is followed by `other` on the right: `a = a * other`.
   SIM3& operator*=(const SIM3& other) noexcept { return *this = *this * other; }
 
   /// The transformed point, s R p + t.
-  Point operator*(const Point& p) const noexcept {
-    return scale_ * (rotation() * p) + translation();
+  GSLAM_ALWAYS_INLINE Point operator*(const Point& p) const noexcept {
+    const Vec<T, 3> r = rotation_ * p;
+    const T* const t = translation_scale_.values;
+    return {{t[3] * r[0] + t[0], t[3] * r[1] + t[1], t[3] * r[2] + t[2]}};
   }
   /// The transformed difference of two points, s R v.
-  Vec<T, 3> transformVector(const Vec<T, 3>& v) const noexcept { return scale_ * (rotation() * v); }
+  Vec<T, 3> transformVector(const Vec<T, 3>& v) const noexcept {
+    return scale() * (rotation() * v);
+  }
   /// The transformed plane: for (n, d) with n p + d = 0, the one through the transformed points,
   /// with a normal as long as before.
   Vec<T, 4> transformPlane(const Vec<T, 4>& plane) const noexcept {
     const Vec<T, 3> normal = rotation() * plane.template segment<3>(0);
-    return {{normal[0], normal[1], normal[2], scale_ * plane[3] - normal.dot(translation())}};
+    return {{normal[0], normal[1], normal[2], scale() * plane[3] - normal.dot(translation())}};
   }
 
   /// The same with the norm of the quaternion mended, for the end of long products.
-  SIM3 normalized() const noexcept { return SIM3(rigid_.normalized(), scale_, Unchecked()); }
+  SIM3 normalized() const noexcept {
+    return SIM3(rotation_.normalized(), translation(), scale(), Unchecked());
+  }
 
   /// The homogeneous matrix [s R t; 0 0 0 1].
   Matrix matrix() const noexcept {
-    Matrix m = rigid_.matrix();
-    m.setBlock(0, 0, scale_ * rotation().matrix());
+    Matrix m = rigid().matrix();
+    m.setBlock(0, 0, scale() * rotation().matrix());
     return m;
   }
 
   /// R.
-  const SO3<T>& rotation() const noexcept { return rigid_.rotation(); }
+  const SO3<T>& rotation() const noexcept { return rotation_; }
   /// t, in the frame that the similarity leads to.
-  const Vec<T, 3>& translation() const noexcept { return rigid_.translation(); }
+  Vec<T, 3> translation() const noexcept { return translation_scale_.template segment<3>(0); }
   /// s.
-  T scale() const noexcept { return scale_; }
+  T scale() const noexcept { return translation_scale_[3]; }
   /// R and t without the scale.
-  const SE3<T>& rigid() const noexcept { return rigid_; }
+  SE3<T> rigid() const noexcept { return SE3<T>(rotation_, translation()); }
   /// Eight elements, qx qy qz qw tx ty tz s.
-  const T* data() const noexcept { return rigid_.data(); }
+  const T* data() const noexcept { return rotation_.data(); }
   /// The same similarity with numbers of another type.
   /// @throws ArgumentError when the scale leaves the range of U
   template <class U>
   SIM3<U> cast() const {
-    return SIM3<U>(rigid_.template cast<U>(), static_cast<U>(scale_));
+    return SIM3<U>(rigid().template cast<U>(), static_cast<U>(scale()));
   }
 
   /// The matrix [s I + hat(v), r; 0 0] of a tangent (r, v, s).
@@ -184,7 +191,7 @@ class SIM3 {
   /// -a.adjoint().
   Jacobian adjoint() const noexcept {
     const Mat<T, 3, 3> r = rotation().matrix();
-    return blocks(scale_ * r, SO3<T>::hat(translation()) * r, -translation(), r, T(1));
+    return blocks(scale() * r, SO3<T>::hat(translation()) * r, -translation(), r, T(1));
   }
   /// ad, the derivative of Ad at the identity: ad(a) b = [a, b].
   static Jacobian ad(const Tangent& a) noexcept {
@@ -218,8 +225,8 @@ class SIM3 {
   /// Derivative of (S exp(d)) p with respect to d at 0: s R [I, -hat(p), p]. That to p is s R.
   Mat<T, 3, 7> actionJacobian(const Point& p) const noexcept {
     Mat<T, 3, 7> j;
-    j.setBlock(0, 0, scale_ * rotation().matrix());
-    j.setBlock(0, 3, scale_ * rotation().actionJacobian(p));
+    j.setBlock(0, 0, scale() * rotation().matrix());
+    j.setBlock(0, 3, scale() * rotation().actionJacobian(p));
     const Vec<T, 3> along = transformVector(p);
     for (std::size_t i = 0; i < 3; ++i) j(i, 6) = along[i];
     return j;
@@ -228,20 +235,21 @@ class SIM3 {
   /// Whether the two differ by at most `tolerance` radians, in the unit of the translation, and in
   /// the logarithm of the scale.
   bool isApprox(const SIM3& other, T tolerance) const noexcept {
-    return rigid_.isApprox(other.rigid_, tolerance) &&
-           std::fabs(std::log(scale_ / other.scale_)) <= tolerance;
+    return rigid().isApprox(other.rigid(), tolerance) &&
+           std::fabs(std::log(scale() / other.scale())) <= tolerance;
   }
 
   /// `tx ty tz qx qy qz qw s`, with the precision of the stream.
   template <class Char, class Traits>
   friend std::basic_ostream<Char, Traits>& operator<<(std::basic_ostream<Char, Traits>& out,
                                                       const SIM3& s) {
-    return out << s.rigid_ << ' ' << s.scale_;
+    return out << s.rigid() << ' ' << s.scale();
   }
 
  private:
   struct Unchecked {};
-  SIM3(const SE3<T>& rigid, T scale, Unchecked) noexcept : rigid_(rigid), scale_(scale) {}
+  GSLAM_ALWAYS_INLINE SIM3(const SO3<T>& rotation, const Vec<T, 3>& t, T scale, Unchecked) noexcept
+      : rotation_(rotation), translation_scale_{{t[0], t[1], t[2], scale}} {}
 
   static T checkedScale(T scale) {
     if (scale > 0 && std::isfinite(scale)) return scale;
@@ -311,12 +319,14 @@ class SIM3 {
     return j;
   }
 
-  SE3<T> rigid_;
-  T scale_;
+  SO3<T> rotation_;
+  Vec<T, 4> translation_scale_;
 };
 
+#if __cplusplus < 201703L  // from then on the declaration is a definition
 template <class T>
 constexpr std::size_t SIM3<T>::kFreedom;
+#endif
 
 using SIM3d = SIM3<double>;  ///< double
 using SIM3f = SIM3<float>;   ///< float

@@ -3,6 +3,7 @@
 
 #include <gslam/base/error.h>
 #include <gslam/base/platform.h>
+#include <gslam/geometry/detail/rotate.h>
 #include <gslam/geometry/detail/rotation_matrix.h>
 #include <gslam/geometry/detail/rotation_vector.h>
 #include <gslam/geometry/mat.h>
@@ -107,12 +108,12 @@ class SO3 {
   }
 
   /// The rotation back: R_b_a of R_a_b. Exact.
-  SO3 inverse() const noexcept {
+  GSLAM_ALWAYS_INLINE SO3 inverse() const noexcept {
     return SO3(-detail::Pair<T>::load(data()), -detail::Pair<T>::load(data() + 2).conjugate());
   }
 
   /// First `other`, then this one.
-  SO3 operator*(const SO3& other) const noexcept {
+  GSLAM_ALWAYS_INLINE SO3 operator*(const SO3& other) const noexcept {
     using detail::Pair;
     const Pair<T> b_xy = Pair<T>::load(other.data());
     const Pair<T> b_zw = Pair<T>::load(other.data() + 2);
@@ -126,12 +127,9 @@ class SO3 {
   /// This one is followed by `other` on the right: `a = a * other`.
   SO3& operator*=(const SO3& other) noexcept { return *this = *this * other; }
 
-  /// The rotated point or direction: v + 2 w (u x v) + 2 u x (u x v) with u = (x, y, z).
-  Point operator*(const Point& v) const noexcept {
-    const Vec<T, 3> u = {{x(), y(), z()}};
-    const Vec<T, 3> half = u.cross(v);
-    const Vec<T, 3> t = half + half;
-    return v + w() * t + u.cross(t);
+  /// The rotated point or direction.
+  GSLAM_ALWAYS_INLINE Point operator*(const Point& v) const noexcept {
+    return detail::rotated(data(), v);
   }
 
   /// The same rotation with the norm of the quaternion mended, for the end of long products.
@@ -257,8 +255,10 @@ class SO3 {
   Vec<T, 4> q_;  // x y z w
 };
 
+#if __cplusplus < 201703L  // from then on the declaration is a definition
 template <class T>
 constexpr std::size_t SO3<T>::kFreedom;
+#endif
 
 using SO3d = SO3<double>;  ///< double
 using SO3f = SO3<float>;   ///< float
