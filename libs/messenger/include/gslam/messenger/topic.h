@@ -22,14 +22,14 @@ namespace gslam {
 inline namespace v1 {
 namespace detail {
 
-class Topic {
+class Topic final : public Mortal {
  public:
   using List = std::vector<std::shared_ptr<Subscription>>;
 
   /// @param changes  the topic that tells of changes; null for that topic itself
   Topic(const std::string& name, PayloadType type, std::shared_ptr<ErrorSink> errors,
         const std::shared_ptr<Topic>& changes)
-      : facts_{std::make_shared<const std::string>(name), type},
+      : facts_{std::make_shared<std::string>(name), type},
         errors_(std::move(errors)),
         changes_(changes),
         list_(List()) {}
@@ -41,15 +41,12 @@ class Topic {
   static std::shared_ptr<Topic> make(const std::string& name, PayloadType type,
                                      std::shared_ptr<ErrorSink> errors,
                                      const std::shared_ptr<Topic>& changes) {
-    std::unique_ptr<Topic> made(new Topic(name, type, std::move(errors), changes));
-    return std::shared_ptr<Topic>(made.release(), [](Topic* topic) {
-      std::shared_ptr<void> owner(topic, [](void* last) { delete static_cast<Topic*>(last); });
-      Delivering::destroyLater(std::move(owner));
-    });
+    Topic* const made = new Topic(name, type, std::move(errors), changes);
+    return std::shared_ptr<Topic>(made, &Delivering::destroyLater);
   }
 
   /// Nobody publishes or subscribes any more.
-  ~Topic() {
+  ~Topic() override {
     for (const std::shared_ptr<Subscription>& one : list_.copy()) leave(one);
   }
 
@@ -82,7 +79,9 @@ class Topic {
     bool added = false;
     list_.replace([&](const List& list) {
       added = list.empty();
-      return added ? List(1, subscription) : list;
+      List next = list;
+      if (added) next.push_back(subscription);
+      return next;
     });
     if (added) ++subscription->places;
     return added;
@@ -93,7 +92,6 @@ class Topic {
     bool was_there = false;
     list_.replace([&](const List& list) {
       List next;
-      next.reserve(list.size());
       for (const std::shared_ptr<Subscription>& one : list) {
         if (one != subscription) next.push_back(one);
       }

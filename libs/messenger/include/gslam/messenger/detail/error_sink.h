@@ -2,7 +2,7 @@
 #ifndef GSLAM_MESSENGER_DETAIL_ERROR_SINK_H
 #define GSLAM_MESSENGER_DETAIL_ERROR_SINK_H
 
-#include <gslam/base/log.h>
+#include <gslam/base/log_hook.h>
 
 #include <exception>
 #include <functional>
@@ -10,7 +10,6 @@
 #include <mutex>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace gslam {
 inline namespace v1 {
@@ -20,13 +19,26 @@ using CallbackErrorHandler = std::function<void(const std::string& topic, std::e
 
 namespace detail {
 
+/// What ends after the callbacks that run in it.
+class Mortal {
+ public:
+  Mortal() = default;
+  virtual ~Mortal() = default;
+  Mortal(const Mortal&) = delete;
+  Mortal& operator=(const Mortal&) = delete;
+
+ private:
+  friend class Delivering;
+  Mortal* next_ = nullptr;  // that waits for its end
+};
+
 /// While one lives, this thread runs callbacks. Such a thread must not wait for the end of other
 /// callbacks: they might wait for it.
 class Delivering {
  public:
   Delivering() noexcept { ++depth(); }
   ~Delivering() {
-    if (--depth() == 0 && !graves().empty()) bury();
+    if (--depth() == 0 && graves() != nullptr) bury();
   }
   Delivering(const Delivering&) = delete;
   Delivering& operator=(const Delivering&) = delete;
@@ -35,8 +47,13 @@ class Delivering {
 
   /// Destroys an object after the callbacks of this thread have returned, which may be inside of
   /// it; at once where there are none.
-  static void destroyLater(std::shared_ptr<void> object) {
-    if (isHere()) graves().push_back(std::move(object));
+  static void destroyLater(Mortal* object) noexcept {
+    if (!isHere()) {
+      delete object;
+      return;
+    }
+    object->next_ = graves();
+    graves() = object;
   }
 
  private:
@@ -44,13 +61,15 @@ class Delivering {
     static thread_local int depth = 0;
     return depth;
   }
-  static std::vector<std::shared_ptr<void>>& graves() noexcept {
-    static thread_local std::vector<std::shared_ptr<void>> objects;
-    return objects;
+  static Mortal*& graves() noexcept {
+    static thread_local Mortal* first = nullptr;
+    return first;
   }
-  static void bury() {
-    std::vector<std::shared_ptr<void>> objects;
-    objects.swap(graves());
+  static void bury() noexcept {
+    while (Mortal* const object = graves()) {
+      graves() = object->next_;
+      delete object;
+    }
   }
 };
 
@@ -82,9 +101,11 @@ class ErrorSink {
       if (handler != nullptr && *handler) return (*handler)(topic, error);
       std::rethrow_exception(error);
     } catch (const std::exception& problem) {
-      GSLAM_LOG(error) << "a subscriber of " << topic << " threw: " << problem.what();
+      logParts(LogLevel::error, __FILE__, __LINE__,
+               {"a subscriber of ", topic.c_str(), " threw: ", problem.what()});
     } catch (...) {
-      GSLAM_LOG(error) << "a subscriber of " << topic << " threw something that is no exception";
+      logParts(LogLevel::error, __FILE__, __LINE__,
+               {"a subscriber of ", topic.c_str(), " threw something that is no exception"});
     }
   }
 
