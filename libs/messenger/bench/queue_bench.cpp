@@ -124,35 +124,64 @@ BENCHMARK_CAPTURE(burstOf, executor, onExecutor(std::make_shared<gslam::ThreadPo
     ->UseRealTime();
 BENCHMARK(burstByHand)->Name("queued_burst/mutex_deque")->Arg(1)->Arg(16)->UseRealTime();
 
-// One message at a time: until a thread that sleeps has handled it.
+// One message at a time: until a thread has handled it that has slept for a while.
+template <class Send>
+void wakeUp(benchmark::State& state, const std::atomic<std::int64_t>& handled, Send send) {
+  using Clock = std::chrono::steady_clock;
+  const Message message = std::make_shared<const int>(1);
+  std::int64_t expected = 0;
+  for (auto _ : state) {
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+    const Clock::time_point begin = Clock::now();
+    send(message);
+    waitFor(handled, ++expected);
+    state.SetIterationTime(std::chrono::duration<double>(Clock::now() - begin).count());
+  }
+}
 void wakeUpOf(benchmark::State& state, const SubscribeOptions& options) {
   const Messenger messenger;
   const auto publisher = messenger.advertise<int>("n");
   std::atomic<std::int64_t> handled{0};
   const Subscriber subscriber = messenger.subscribe<int>(
       "n", options, [&](const int&) { handled.fetch_add(1, std::memory_order_release); });
-  const Message message = std::make_shared<const int>(1);
-  std::int64_t expected = 0;
-  for (auto _ : state) {
-    publisher.publish(message);
-    waitFor(handled, ++expected);
-  }
+  wakeUp(state, handled, [&](const Message& message) { publisher.publish(message); });
 }
 void wakeUpByHand(benchmark::State& state) {
   std::atomic<std::int64_t> handled{0};
   ByHand queue(handled);
+  wakeUp(state, handled, [&](const Message& message) { queue.push(message); });
+}
+BENCHMARK_CAPTURE(wakeUpOf, own_thread, inOwnThread())->Name("wake_up/gslam")->UseManualTime();
+BENCHMARK_CAPTURE(wakeUpOf, spinning, inOwnThread().spinFor(std::chrono::microseconds(1000)))
+    ->Name("wake_up/gslam_spinning")
+    ->UseManualTime();
+BENCHMARK(wakeUpByHand)->Name("wake_up/mutex_deque")->UseManualTime();
+
+// The same without a pause: each message as soon as the one before was handled.
+template <class Send>
+void pingPong(benchmark::State& state, const std::atomic<std::int64_t>& handled, Send send) {
   const Message message = std::make_shared<const int>(1);
   std::int64_t expected = 0;
   for (auto _ : state) {
-    queue.push(message);
+    send(message);
     waitFor(handled, ++expected);
   }
 }
-BENCHMARK_CAPTURE(wakeUpOf, own_thread, inOwnThread())->Name("wake_up/gslam")->UseRealTime();
-BENCHMARK_CAPTURE(wakeUpOf, spinning, inOwnThread().spinFor(std::chrono::microseconds(100)))
-    ->Name("wake_up/gslam_spinning")
-    ->UseRealTime();
-BENCHMARK(wakeUpByHand)->Name("wake_up/mutex_deque")->UseRealTime();
+void oneByOneOf(benchmark::State& state, const SubscribeOptions& options) {
+  const Messenger messenger;
+  const auto publisher = messenger.advertise<int>("n");
+  std::atomic<std::int64_t> handled{0};
+  const Subscriber subscriber = messenger.subscribe<int>(
+      "n", options, [&](const int&) { handled.fetch_add(1, std::memory_order_release); });
+  pingPong(state, handled, [&](const Message& message) { publisher.publish(message); });
+}
+void oneByOneByHand(benchmark::State& state) {
+  std::atomic<std::int64_t> handled{0};
+  ByHand queue(handled);
+  pingPong(state, handled, [&](const Message& message) { queue.push(message); });
+}
+BENCHMARK_CAPTURE(oneByOneOf, own_thread, inOwnThread())->Name("one_by_one/gslam")->UseRealTime();
+BENCHMARK(oneByOneByHand)->Name("one_by_one/mutex_deque")->UseRealTime();
 
 // Several publishers of one topic.
 void manyPublishers(benchmark::State& state, const SubscribeOptions& options) {
@@ -182,6 +211,63 @@ BENCHMARK_CAPTURE(manyPublishers, synchronous, SubscribeOptions())
     ->UseRealTime();
 BENCHMARK_CAPTURE(manyPublishers, queued, inOwnThread().blockPublisher(4096))
     ->Name("publishers_queued/gslam")
+    ->ThreadRange(1, 4)
+    ->UseRealTime();
+BENCHMARK_CAPTURE(manyPublishers, dropping, inOwnThread().keepLast(4096))
+    ->Name("publishers_dropping/gslam")
+    ->ThreadRange(1, 4)
+    ->UseRealTime();
+
+// The same by hand: a deque with a bound, and a thread that takes from it.
+class BoundedByHand {
+ public:
+  BoundedByHand() : thread_([this] { work(); }) {}
+  ~BoundedByHand() {
+    push(nullptr);
+    thread_.join();
+  }
+  void push(const Message& message) {
+    {
+      std::unique_lock<std::mutex> lock(mutex_);
+      not_full_.wait(lock, [this] { return waiting_.size() < 4096; });
+      waiting_.push_back(message);
+    }
+    not_empty_.notify_one();
+  }
+
+ private:
+  void work() {
+    for (;;) {
+      Message message;
+      {
+        std::unique_lock<std::mutex> lock(mutex_);
+        not_empty_.wait(lock, [this] { return !waiting_.empty(); });
+        message = std::move(waiting_.front());
+        waiting_.pop_front();
+      }
+      not_full_.notify_one();
+      if (message == nullptr) return;
+      benchmark::DoNotOptimize(*message);
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable not_empty_;
+  std::condition_variable not_full_;
+  std::deque<Message> waiting_;
+  std::thread thread_;
+};
+
+void manyPublishersByHand(benchmark::State& state) {
+  static BoundedByHand* queue = nullptr;
+  if (state.thread_index() == 0) queue = new BoundedByHand;
+  const Message message = std::make_shared<const int>(1);
+  for (auto _ : state) queue->push(message);
+  if (state.thread_index() == 0) delete queue;
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(manyPublishersByHand)
+    ->Name("publishers_queued/mutex_deque")
     ->ThreadRange(1, 4)
     ->UseRealTime();
 

@@ -1,13 +1,13 @@
 #ifndef GSLAM_BASE_WORKERS_H
 #define GSLAM_BASE_WORKERS_H
 
+#include <gslam/base/detail/ring.h>
 #include <gslam/base/error.h>
 #include <gslam/base/log_hook.h>
 
 #include <algorithm>
 #include <condition_variable>
 #include <cstdlib>
-#include <deque>
 #include <exception>
 #include <functional>
 #include <memory>
@@ -88,7 +88,7 @@ class ThreadPool {
   void post(std::function<void()> task) {
     {
       std::lock_guard<std::mutex> lock(mutex_);
-      tasks_.push_back(std::move(task));
+      tasks_.push(std::move(task));
     }
     ready_.notify_one();
   }
@@ -100,8 +100,7 @@ class ThreadPool {
       ready_.wait(lock, [this] { return stopping_ || !tasks_.empty(); });
       if (tasks_.empty()) return;
       {
-        std::function<void()> task = std::move(tasks_.front());
-        tasks_.pop_front();
+        const std::function<void()> task = tasks_.pop();
         lock.unlock();
         try {
           task();
@@ -130,7 +129,7 @@ class ThreadPool {
 
   std::mutex mutex_;  // guards tasks_ and stopping_
   std::condition_variable ready_;
-  std::deque<std::function<void()>> tasks_;
+  detail::Ring<std::function<void()>> tasks_;
   bool stopping_ = false;
   std::vector<std::thread> workers_;
 };

@@ -2,6 +2,7 @@
 #ifndef GSLAM_MESSENGER_DETAIL_MESSAGE_QUEUE_H
 #define GSLAM_MESSENGER_DETAIL_MESSAGE_QUEUE_H
 
+#include <gslam/base/detail/ring.h>
 #include <gslam/messenger/options.h>
 
 #include <atomic>
@@ -12,54 +13,10 @@
 #include <mutex>
 #include <thread>
 #include <utility>
-#include <vector>
 
 namespace gslam {
 inline namespace v1 {
 namespace detail {
-
-/// First in, first out, in one block of memory that grows and is kept.
-template <class Item>
-class Ring {
- public:
-  std::size_t size() const noexcept { return size_; }
-  bool empty() const noexcept { return size_ == 0; }
-
-  void push(Item item) {
-    if (size_ == items_.size()) grow();
-    items_[(first_ + size_) & (items_.size() - 1)] = std::move(item);
-    ++size_;
-  }
-
-  /// Must not be called on an empty one.
-  Item pop() {
-    Item item = std::move(items_[first_]);
-    items_[first_] = Item();  // what it held ends now, not when its place is used again
-    first_ = (first_ + 1) & (items_.size() - 1);
-    --size_;
-    return item;
-  }
-
-  void swap(Ring& other) noexcept {
-    items_.swap(other.items_);
-    std::swap(first_, other.first_);
-    std::swap(size_, other.size_);
-  }
-
- private:
-  void grow() {
-    std::vector<Item> larger(items_.empty() ? 4 : 2 * items_.size());
-    for (std::size_t i = 0; i < size_; ++i) {
-      larger[i] = std::move(items_[(first_ + i) & (items_.size() - 1)]);
-    }
-    items_.swap(larger);
-    first_ = 0;
-  }
-
-  std::vector<Item> items_;  // a power of two of them
-  std::size_t first_ = 0;
-  std::size_t size_ = 0;
-};
 
 /// What became of messages.
 struct QueueCounts {
@@ -104,22 +61,18 @@ class MessageQueue {
 
   /// Waits for the next message; false when the queue was closed and holds no more.
   bool waitPop(Item& item) {
-    spin();
+    lookAround();
     std::unique_lock<std::mutex> lock(mutex_);
-    ++sleepers_;
-    not_empty_.wait(lock, [this] { return !ring_.empty() || is_closed_; });
-    --sleepers_;
+    waitForMessage(lock);
     return take(item, lock);
   }
 
   /// All that waits, in exchange for an empty ring; false when closed and empty. For queues without
   /// bound: what was taken does not count any more.
   bool waitPopAll(Ring<Item>& items) {
-    spin();
+    lookAround();
     std::unique_lock<std::mutex> lock(mutex_);
-    ++sleepers_;
-    not_empty_.wait(lock, [this] { return !ring_.empty() || is_closed_; });
-    --sleepers_;
+    waitForMessage(lock);
     ring_.swap(items);
     size_.store(0, std::memory_order_relaxed);
     return !items.empty();
@@ -154,6 +107,7 @@ class MessageQueue {
     Ring<Item> dropped;  // destroyed without the lock
     const std::lock_guard<std::mutex> lock(mutex_);
     is_closed_ = true;
+    is_closing_.store(true, std::memory_order_relaxed);
     if (pending == Pending::discard) {
       dropped_ += ring_.size();
       ring_.swap(dropped);
@@ -199,8 +153,14 @@ class MessageQueue {
   }
 
   void waitForRoom(std::unique_lock<std::mutex>& lock) {
+    const auto is_over = [this] { return ring_.size() < capacity_ || is_closed_; };
+    for (int i = 0; i < kYields && !is_over(); ++i) {
+      lock.unlock();
+      std::this_thread::yield();
+      lock.lock();
+    }
     ++waiting_publishers_;
-    not_full_.wait(lock, [this] { return ring_.size() < capacity_ || is_closed_; });
+    not_full_.wait(lock, is_over);
     --waiting_publishers_;
   }
 
@@ -214,18 +174,44 @@ class MessageQueue {
     return true;
   }
 
-  void spin() const {
-    if (spin_.count() == 0) return;
+  void waitForMessage(std::unique_lock<std::mutex>& lock) {
+    if (!ring_.empty() || is_closed_) return;
+    const auto begin = std::chrono::steady_clock::now();
+    ++sleepers_;
+    not_empty_.wait(lock, [this] { return !ring_.empty() || is_closed_; });
+    --sleepers_;
+    const auto slept = std::chrono::steady_clock::now() - begin;
+    yields_ = slept < std::chrono::microseconds(50) ? kYields : 0;
+  }
+
+  // Looks for messages a while before it sleeps, without the lock. In between others have the
+  // processor: the one who is to publish may need it.
+  void lookAround() const {
+    for (int i = 0; i < yields_ && isEmpty(); ++i) std::this_thread::yield();
+    if (spin_.count() == 0 || !isEmpty()) return;
     const auto end = std::chrono::steady_clock::now() + spin_;
-    while (size_.load(std::memory_order_relaxed) == 0 && std::chrono::steady_clock::now() < end) {
+    for (int i = 1; isEmpty() && !is_closing_.load(std::memory_order_relaxed); ++i) {
+      if (i % 64 != 0) continue;
+      if (std::chrono::steady_clock::now() > end) return;
+      std::this_thread::yield();
     }
   }
+  bool isEmpty() const noexcept { return size_.load(std::memory_order_relaxed) == 0; }
+
+  // How often a thread lets others run before it sleeps. In a burst what it waits for is there by
+  // then, and neither side pays for a sleep and a wake-up: with 16 subscribers on 2 processors a
+  // message costs 0.4 us and not 12. More of them gain nothing more.
+  static constexpr int kYields = 4;
 
   const std::size_t capacity_;
   const Overflow overflow_;
   const std::chrono::microseconds spin_;
-  std::atomic<std::size_t> size_{0};  // of ring_, for spin()
-  mutable std::mutex mutex_;          // guards all below
+  // Of a consumer with a thread of its own: kYields after a sleep that was short, so that looking
+  // around would have been the shorter way; 0 after a long one, where it would have been in vain.
+  int yields_ = 0;
+  std::atomic<std::size_t> size_{0};     // of ring_, for lookAround()
+  std::atomic<bool> is_closing_{false};  // is_closed_, for lookAround()
+  mutable std::mutex mutex_;             // guards all below
   std::condition_variable not_empty_;
   std::condition_variable not_full_;
   std::condition_variable idle_;
