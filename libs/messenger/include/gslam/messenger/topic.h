@@ -1,6 +1,7 @@
 #ifndef GSLAM_MESSENGER_TOPIC_H
 #define GSLAM_MESSENGER_TOPIC_H
 
+#include <gslam/base/platform.h>
 #include <gslam/messenger/detail/payload_type.h>
 #include <gslam/messenger/detail/read_mostly.h>
 #include <gslam/messenger/detail/subscription.h>
@@ -42,17 +43,17 @@ class Topic final : public Mortal {
                                      std::shared_ptr<ErrorSink> errors,
                                      const std::shared_ptr<Topic>& changes) {
     Topic* const made = new Topic(name, type, std::move(errors), changes);
-    return std::shared_ptr<Topic>(made, &Delivering::destroyLater);
+    return std::shared_ptr<Topic>(made, &Topic::endLater);
   }
 
   /// Nobody publishes or subscribes any more.
   ~Topic() override {
-    for (const std::shared_ptr<Subscription>& one : list_.copy()) leave(one);
+    for (const std::shared_ptr<Subscription>& one : list_.copy()) leave(one, *errors_);
   }
 
   /// Calls everyone who listens now, in the order of subscribing.
   void deliver(AnyLetter& letter) {
-    const Delivering delivering;
+    const Delivering delivering(errors_->thread());
     if (is_latched_.load(std::memory_order_relaxed)) return deliverAndKeep(letter);
     const ReadMostly<List>::Reader list(list_);
     deliverTo(*list, letter);
@@ -69,7 +70,7 @@ class Topic final : public Mortal {
       const Latched last = latched();
       seen = last.number;
       if (last.letter == nullptr) continue;
-      const Delivering delivering;
+      const Delivering delivering(errors_->thread());
       errors_->guard(name(), [&] { subscription->receive(*last.letter, facts_); });
     }
   }
@@ -103,7 +104,7 @@ class Topic final : public Mortal {
   }
   /// Waits for the publishers that are delivering just now; not in a callback.
   void waitForPublishers() {
-    if (!Delivering::isHere()) list_.waitForReaders();
+    if (!errors_->thread().isCalling()) list_.waitForReaders();
   }
 
   /// Tells those who want to know.
@@ -121,13 +122,15 @@ class Topic final : public Mortal {
   std::atomic<std::size_t> publisher_count{0};
 
   /// One place less; who gives up the last ends the subscription.
-  static void leave(const std::shared_ptr<Subscription>& subscription) {
+  static void leave(const std::shared_ptr<Subscription>& subscription, const ErrorSink& errors) {
     if (--subscription->places > 0 || !subscription->is_active.exchange(false)) return;
     subscription->close(subscription->atEnd());
-    if (!Delivering::isHere()) subscription->finish();
+    if (!errors.thread().isCalling()) subscription->finish();
   }
 
  private:
+  static void endLater(Topic* topic) { topic->errors_->thread().destroyLater(topic); }
+
   struct Latched {
     std::shared_ptr<AnyLetter> letter;
     std::uint64_t number;
@@ -139,14 +142,21 @@ class Topic final : public Mortal {
   }
 
   void deliverTo(const List& list, AnyLetter& letter) {
-    for (const std::shared_ptr<Subscription>& subscription : list) {
-      if (!subscription->is_active.load(std::memory_order_acquire)) continue;
-      errors_->guard(name(), [&] { subscription->receive(letter, facts_); });
+    const std::shared_ptr<Subscription>* next = list.data();
+    const std::shared_ptr<Subscription>* const end = next + list.size();
+    while (next != end) {
+      errors_->guard(name(), [&] {
+        while (next != end) {
+          Subscription& one = **next;
+          ++next;  // who throws has had his turn
+          if (one.is_active.load(std::memory_order_acquire)) one.receive(letter, facts_);
+        }
+      });
     }
   }
 
   // Who is added after the message was kept gets it from there, and so not from this list.
-  void deliverAndKeep(AnyLetter& letter) {
+  GSLAM_COLD void deliverAndKeep(AnyLetter& letter) {
     const std::shared_ptr<AnyLetter> kept = letter.kept();
     std::unique_lock<std::mutex> lock(latch_mutex_);
     latched_.letter = kept;

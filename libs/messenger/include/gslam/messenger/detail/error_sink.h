@@ -3,6 +3,7 @@
 #define GSLAM_MESSENGER_DETAIL_ERROR_SINK_H
 
 #include <gslam/base/log_hook.h>
+#include <gslam/base/platform.h>
 
 #include <exception>
 #include <functional>
@@ -28,54 +29,69 @@ class Mortal {
   Mortal& operator=(const Mortal&) = delete;
 
  private:
-  friend class Delivering;
+  friend class CallbackThread;
   Mortal* next_ = nullptr;  // that waits for its end
 };
 
-/// While one lives, this thread runs callbacks. Such a thread must not wait for the end of other
-/// callbacks: they might wait for it.
-class Delivering {
+/// Whether a thread is in callbacks. Such a thread must not wait for the end of other callbacks:
+/// they might wait for it.
+class CallbackThread {
  public:
-  Delivering() noexcept { ++depth(); }
-  ~Delivering() {
-    if (--depth() == 0 && graves() != nullptr) bury();
+  bool isCalling() const noexcept { return depth_ > 0; }
+  void enter() noexcept { ++depth_; }
+  void leave() noexcept {
+    if (--depth_ == 0 && graves_ != nullptr) bury();
   }
-  Delivering(const Delivering&) = delete;
-  Delivering& operator=(const Delivering&) = delete;
-
-  static bool isHere() noexcept { return depth() > 0; }
 
   /// Destroys an object after the callbacks of this thread have returned, which may be inside of
   /// it; at once where there are none.
-  static void destroyLater(Mortal* object) noexcept {
-    if (!isHere()) {
-      delete object;
-      return;
-    }
-    object->next_ = graves();
-    graves() = object;
+  void destroyLater(Mortal* object) noexcept {
+    object->next_ = graves_;
+    graves_ = object;
+    if (depth_ == 0) bury();
+  }
+
+  /// This thread. A library with hidden visibility has another view of it than its host, so what
+  /// belongs to a messenger asks its ErrorSink.
+  static CallbackThread& ofThisLibrary() noexcept {
+    static thread_local CallbackThread thread;
+    return thread;
   }
 
  private:
-  static int& depth() noexcept {
-    static thread_local int depth = 0;
-    return depth;
-  }
-  static Mortal*& graves() noexcept {
-    static thread_local Mortal* first = nullptr;
-    return first;
-  }
-  static void bury() noexcept {
-    while (Mortal* const object = graves()) {
-      graves() = object->next_;
+  GSLAM_COLD void bury() noexcept {
+    while (Mortal* const object = graves_) {
+      graves_ = object->next_;
       delete object;
     }
   }
+
+  int depth_ = 0;
+  Mortal* graves_ = nullptr;
+};
+
+/// While one lives, this thread runs callbacks.
+class Delivering {
+ public:
+  explicit Delivering(CallbackThread& thread) noexcept : thread_(thread) { thread_.enter(); }
+  ~Delivering() { thread_.leave(); }
+  Delivering(const Delivering&) = delete;
+  Delivering& operator=(const Delivering&) = delete;
+
+ private:
+  CallbackThread& thread_;
 };
 
 /// Gives what callbacks throw to a handler; to the log where there is none.
 class ErrorSink {
  public:
+  /// This thread, as the one sees it who made the messenger, and so the same for all libraries that
+  /// use it.
+  CallbackThread& thread() const noexcept {
+    // mostly it is this library, whose function can be inlined
+    return thread_ == &CallbackThread::ofThisLibrary ? CallbackThread::ofThisLibrary() : thread_();
+  }
+
   void set(CallbackErrorHandler handler) {
     auto next = std::make_shared<const CallbackErrorHandler>(std::move(handler));
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -91,7 +107,7 @@ class ErrorSink {
     }
   }
 
-  void report(const std::string& topic, const std::exception_ptr& error) {
+  GSLAM_COLD void report(const std::string& topic, const std::exception_ptr& error) {
     std::shared_ptr<const CallbackErrorHandler> handler;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -110,7 +126,8 @@ class ErrorSink {
   }
 
  private:
-  std::mutex mutex_;
+  CallbackThread& (*const thread_)() noexcept = &CallbackThread::ofThisLibrary;
+  std::mutex mutex_;  // guards handler_
   std::shared_ptr<const CallbackErrorHandler> handler_;
 };
 

@@ -62,7 +62,7 @@ class Hub {
     topics_.add(changes_);
   }
   ~Hub() {
-    for (const std::shared_ptr<Subscription>& one : patterns_) Topic::leave(one);
+    for (const std::shared_ptr<Subscription>& one : patterns_) Topic::leave(one, *errors_);
   }
   Hub(const Hub&) = delete;
   Hub& operator=(const Hub&) = delete;

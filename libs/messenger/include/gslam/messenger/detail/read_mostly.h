@@ -2,6 +2,8 @@
 #ifndef GSLAM_MESSENGER_DETAIL_READ_MOSTLY_H
 #define GSLAM_MESSENGER_DETAIL_READ_MOSTLY_H
 
+#include <gslam/base/platform.h>
+
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -127,7 +129,7 @@ class ReadMostly {
     }
   }
 
-  void dropUnused() {
+  GSLAM_COLD void dropUnused() {
     Old unused;
     const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
     if (lock.owns_lock()) takeUnused(unused);

@@ -182,7 +182,7 @@ class QueuedSubscription final
 
   void work() {
     const Consuming consuming(&queue_);
-    const Delivering delivering;
+    const Delivering delivering(errors_->thread());
     if (queue_.isBounded()) {
       Item item;
       while (queue_.waitPop(item)) deliver(std::move(item));
@@ -208,7 +208,7 @@ class QueuedSubscription final
   void workAWhile() {
     std::shared_ptr<QueuedSubscription> self = std::move(alive_while_posted_);
     const Consuming consuming(&queue_);
-    const Delivering delivering;
+    const Delivering delivering(errors_->thread());
     Item item;
     for (int i = 0; i < 32; ++i) {
       if (queue_.tryPop(item)) {
