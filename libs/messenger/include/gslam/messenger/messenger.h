@@ -93,6 +93,12 @@ class Messenger {
     detail::Letter<T> letter(message);
     find<T>(topic)->deliver(letter);
   }
+  template <class T, class = typename std::enable_if<!std::is_lvalue_reference<T>::value &&
+                                                     !std::is_const<T>::value>::type>
+  void publish(const std::string& topic, T&& message) const {
+    detail::Letter<T> letter(std::move(message));
+    find<T>(topic)->deliver(letter);
+  }
   /// @}
 
   /// Calls `callback` in the publisher's thread with each message that is published from now on.
