@@ -3,6 +3,7 @@
 #define GSLAM_MESSENGER_DETAIL_MESSAGE_QUEUE_H
 
 #include <gslam/base/detail/ring.h>
+#include <gslam/messenger/detail/brief_wait.h>
 #include <gslam/messenger/options.h>
 
 #include <atomic>
@@ -22,38 +23,6 @@ namespace detail {
 struct QueueCounts {
   std::uint64_t dropped;  ///< that came and were not delivered
   std::size_t waiting;    ///< that are there now
-};
-
-/// Lets others run a few times before a thread sleeps: what it waits for is often there by then,
-/// and neither side pays for a sleep and a wake-up. In a burst to 16 subscribers on 2 processors a
-/// message costs 0.4 us so, and not 12.
-///
-/// On a processor that strangers keep busy, who yields waits for them, where who slept would be
-/// woken at once. So a yield that took longer than the sleeps that it saved, of some 4 us each, is
-/// the last one for a while.
-class Yielding {
- public:
-  /// Yields up to four times (more gain nothing more), until there is a gain.
-  /// @param gain   says how much of what is waited for is there
-  /// @param yield  yields
-  template <class Gain, class Yield>
-  void untilThereIs(Gain gain, Yield yield) {
-    auto now = std::chrono::steady_clock::now();
-    for (int i = 0; i < 4 && now >= not_before_ && gain() == 0; ++i) {
-      const auto begin = now;
-      yield();
-      now = std::chrono::steady_clock::now();
-      const auto took = now - begin;
-      const std::size_t got = gain();
-      const bool was_worth_it = got >= 1000 || took < got * std::chrono::microseconds(4);
-      if (got > 0 && took > std::chrono::microseconds(200) && !was_worth_it) {
-        not_before_ = now + std::chrono::milliseconds(100);
-      }
-    }
-  }
-
- private:
-  std::chrono::steady_clock::time_point not_before_;
 };
 
 /// Messages from any number of publishers to one consumer.
@@ -185,14 +154,14 @@ class MessageQueue {
   }
 
   void waitForRoom(std::unique_lock<std::mutex>& lock) {
-    const auto room = [this] { return is_closed_ ? capacity_ : capacity_ - ring_.size(); };
-    publishers_yielding_.untilThereIs(room, [&lock] {
-      lock.unlock();
-      std::this_thread::yield();
-      lock.lock();
+    lock.unlock();
+    publishers_wait_.untilThereIs([this] {
+      const std::size_t size = size_.load(std::memory_order_relaxed);
+      return size < capacity_ ? capacity_ - size : 0;
     });
+    lock.lock();
     ++waiting_publishers_;
-    not_full_.wait(lock, [&room] { return room() > 0; });
+    not_full_.wait(lock, [this] { return ring_.size() < capacity_ || is_closed_; });
     --waiting_publishers_;
   }
 
@@ -220,7 +189,7 @@ class MessageQueue {
   // processor: the one who is to publish may need it.
   void lookAround() {
     const auto waiting = [this] { return size_.load(std::memory_order_relaxed); };
-    if (was_short_) yielding_.untilThereIs(waiting, [] { std::this_thread::yield(); });
+    if (was_short_) wait_.untilThereIs(waiting);
     if (spin_.count() == 0 || waiting() > 0) return;
     const auto end = std::chrono::steady_clock::now() + spin_;
     for (int i = 1; waiting() == 0 && !is_closing_.load(std::memory_order_relaxed); ++i) {
@@ -233,17 +202,15 @@ class MessageQueue {
   const std::size_t capacity_;
   const Overflow overflow_;
   const std::chrono::microseconds spin_;
-  // Of a consumer with a thread of its own: whether it slept so short that yielding would have been
-  // the shorter way.
-  bool was_short_ = false;
-  Yielding yielding_;
+  BriefWait wait_{false};                // of a consumer with a thread of its own
+  bool was_short_ = false;               // so was its last sleep: the wait may be better
+  BriefWait publishers_wait_{true};      // for room
   std::atomic<std::size_t> size_{0};     // of ring_, for lookAround()
   std::atomic<bool> is_closing_{false};  // is_closed_, for lookAround()
   mutable std::mutex mutex_;             // guards all below
   std::condition_variable not_empty_;
   std::condition_variable not_full_;
   std::condition_variable idle_;
-  Yielding publishers_yielding_;
   Ring<Item> ring_;
   std::uint64_t dropped_ = 0;
   std::size_t waiting_publishers_ = 0;
