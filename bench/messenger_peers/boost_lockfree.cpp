@@ -46,6 +46,5 @@ class Lockfree {
 };
 
 BURST_PEER(Lockfree, "boost_lockfree_awake");
-ONE_BY_ONE_PEER(Lockfree, "boost_lockfree_awake");
 
 }  // namespace

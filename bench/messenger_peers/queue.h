@@ -106,7 +106,7 @@ void manyPublishers(benchmark::State& state) {
   BENCHMARK_TEMPLATE(queuedBurst, Queue)->Name("queued_burst/" name)->Arg(1)->Arg(16)->UseRealTime()
 #define ONE_BY_ONE_PEER(Queue, name)                                            \
   BENCHMARK_TEMPLATE(oneByOne, Queue)->Name("one_by_one/" name)->UseRealTime(); \
-  BENCHMARK_TEMPLATE(wakeUp, Queue)->Name("wake_up/" name)->UseManualTime()
+  BENCHMARK_TEMPLATE(wakeUp, Queue)->Name("wake_up/" name)->Iterations(1000)->UseManualTime()
 #define PUBLISHERS_PEER(Queue, name)        \
   BENCHMARK_TEMPLATE(manyPublishers, Queue) \
       ->Name("publishers/" name)            \

@@ -18,7 +18,7 @@ namespace detail {
 ///
 /// On a processor that strangers keep busy, who yields waits for them, where who slept would be
 /// woken at once. So a yield that took longer than the sleeps that it saved, of some 10 us each, is
-/// the last one for a while.
+/// the last one for fifty times as long: no more than 2 % are lost.
 class BriefWait {
   using Clock = std::chrono::steady_clock;
 
@@ -40,8 +40,7 @@ class BriefWait {
       const auto saved = std::chrono::microseconds(10) * (got < 1000 ? got : 1000);
       if (got == 0 && has_rivals_) continue;  // they may have taken it
       if (now - begin > std::chrono::microseconds(200) + saved) {
-        no_yield_before_.store(ticks(now + std::chrono::milliseconds(100)),
-                               std::memory_order_relaxed);
+        no_yield_before_.store(ticks(now + 50 * (now - begin)), std::memory_order_relaxed);
       }
     }
   }
