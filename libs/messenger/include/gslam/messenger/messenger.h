@@ -96,7 +96,7 @@ class Messenger {
   template <class T, class = typename std::enable_if<!std::is_lvalue_reference<T>::value &&
                                                      !std::is_const<T>::value>::type>
   void publish(const std::string& topic, T&& message) const {
-    detail::Letter<T> letter(std::move(message));
+    detail::Letter<T> letter(std::forward<T>(message));
     find<T>(topic)->deliver(letter);
   }
   /// @}
