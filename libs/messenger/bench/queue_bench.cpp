@@ -1,15 +1,12 @@
-// Queues and threads: what a message costs until it is handled, against a queue by hand.
+// Messages that go to a thread pool, and many publishers. Threads of a subscription's own are
+// measured beside their peers, in bench/messenger_peers.
 #include <allocations.h>
 #include <benchmark/benchmark.h>
 #include <gslam/messenger.h>
 
 #include <atomic>
-#include <chrono>
-#include <condition_variable>
 #include <cstdint>
-#include <deque>
 #include <memory>
-#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -17,144 +14,39 @@ namespace {
 
 using gslam::inOwnThread;
 using gslam::Messenger;
-using gslam::onExecutor;
 using gslam::SubscribeOptions;
 using gslam::Subscriber;
 using Message = std::shared_ptr<const int>;
 
-constexpr int kBurst = 1000;
-
-// The usual way: a deque behind a mutex, and a thread that waits for it.
-class ByHand {
- public:
-  explicit ByHand(std::atomic<std::int64_t>& handled)
-      : handled_(handled), thread_([this] { work(); }) {}
-  ~ByHand() {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      stop_ = true;
-    }
-    ready_.notify_one();
-    thread_.join();
-  }
-  void push(const Message& message) {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      waiting_.push_back(message);
-    }
-    ready_.notify_one();
-  }
-
- private:
-  void work() {
-    std::unique_lock<std::mutex> lock(mutex_);
-    for (;;) {
-      ready_.wait(lock, [this] { return stop_ || !waiting_.empty(); });
-      if (waiting_.empty()) return;
-      {
-        const Message message = std::move(waiting_.front());
-        waiting_.pop_front();
-        lock.unlock();
-        benchmark::DoNotOptimize(*message);
-        handled_.fetch_add(1, std::memory_order_release);
-      }
-      lock.lock();
-    }
-  }
-
-  std::atomic<std::int64_t>& handled_;
-  std::mutex mutex_;
-  std::condition_variable ready_;
-  std::deque<Message> waiting_;
-  bool stop_ = false;
-  std::thread thread_;
-};
-
-void waitFor(const std::atomic<std::int64_t>& handled, std::int64_t count) {
-  while (handled.load(std::memory_order_acquire) < count) std::this_thread::yield();
-}
-
 // A burst of messages until all subscribers have handled all of them.
-template <class Send>
-void burst(benchmark::State& state, std::atomic<std::int64_t>& handled, Send send) {
-  const Message message = std::make_shared<const int>(1);
-  for (int i = 0; i < kBurst; ++i) send(message);  // queues find their size
-  std::int64_t expected = kBurst * state.range(0);
-  waitFor(handled, expected);
-  const gslam_bench::CountAllocations count(state);
-  for (auto _ : state) {
-    for (int i = 0; i < kBurst; ++i) send(message);
-    waitFor(handled, expected += kBurst * state.range(0));
-  }
-  state.SetItemsProcessed(state.iterations() * kBurst);
-}
-
-void burstOf(benchmark::State& state, const SubscribeOptions& options) {
+void burstToExecutor(benchmark::State& state) {
+  const int size = 1000;
   const Messenger messenger;
+  const auto pool = std::make_shared<gslam::ThreadPool>(2);
   const auto publisher = messenger.advertise<int>("n");
   std::atomic<std::int64_t> handled{0};
   std::vector<Subscriber> subscribers;
   for (std::int64_t i = 0; i < state.range(0); ++i) {
-    subscribers.push_back(messenger.subscribe<int>("n", options, [&](const int& n) {
+    subscribers.push_back(messenger.subscribe<int>("n", gslam::onExecutor(pool), [&](const int& n) {
       benchmark::DoNotOptimize(n);
       handled.fetch_add(1, std::memory_order_release);
     }));
   }
-  burst(state, handled, [&](const Message& message) { publisher.publish(message); });
-}
-
-void burstByHand(benchmark::State& state) {
-  std::atomic<std::int64_t> handled{0};
-  std::vector<std::unique_ptr<ByHand>> queues;
-  for (std::int64_t i = 0; i < state.range(0); ++i) queues.emplace_back(new ByHand(handled));
-  burst(state, handled, [&](const Message& message) {
-    for (const auto& queue : queues) queue->push(message);
-  });
-}
-
-BENCHMARK_CAPTURE(burstOf, own_thread, inOwnThread())
-    ->Name("queued_burst/gslam")
-    ->Arg(1)
-    ->Arg(16)
-    ->UseRealTime();
-BENCHMARK_CAPTURE(burstOf, executor, onExecutor(std::make_shared<gslam::ThreadPool>(2)))
-    ->Name("queued_burst/gslam_executor")
-    ->Arg(1)
-    ->Arg(16)
-    ->UseRealTime();
-BENCHMARK(burstByHand)->Name("queued_burst/mutex_deque")->Arg(1)->Arg(16)->UseRealTime();
-
-// One message at a time: until a thread that sleeps has handled it.
-void wakeUpOf(benchmark::State& state, const SubscribeOptions& options) {
-  const Messenger messenger;
-  const auto publisher = messenger.advertise<int>("n");
-  std::atomic<std::int64_t> handled{0};
-  const Subscriber subscriber = messenger.subscribe<int>(
-      "n", options, [&](const int&) { handled.fetch_add(1, std::memory_order_release); });
   const Message message = std::make_shared<const int>(1);
   std::int64_t expected = 0;
-  for (auto _ : state) {
-    publisher.publish(message);
-    waitFor(handled, ++expected);
-  }
+  const auto send = [&] {
+    for (int i = 0; i < size; ++i) publisher.publish(message);
+    expected += size * state.range(0);
+    while (handled.load(std::memory_order_acquire) < expected) std::this_thread::yield();
+  };
+  for (int i = 0; i < 10; ++i) send();  // queues find their size
+  const gslam_bench::CountAllocations count(state);
+  for (auto _ : state) send();
+  state.SetItemsProcessed(state.iterations() * size);
 }
-void wakeUpByHand(benchmark::State& state) {
-  std::atomic<std::int64_t> handled{0};
-  ByHand queue(handled);
-  const Message message = std::make_shared<const int>(1);
-  std::int64_t expected = 0;
-  for (auto _ : state) {
-    queue.push(message);
-    waitFor(handled, ++expected);
-  }
-}
-BENCHMARK_CAPTURE(wakeUpOf, own_thread, inOwnThread())->Name("wake_up/gslam")->UseRealTime();
-BENCHMARK_CAPTURE(wakeUpOf, spinning, inOwnThread().spinFor(std::chrono::microseconds(100)))
-    ->Name("wake_up/gslam_spinning")
-    ->UseRealTime();
-BENCHMARK(wakeUpByHand)->Name("wake_up/mutex_deque")->UseRealTime();
+BENCHMARK(burstToExecutor)->Name("queued_burst_executor/gslam")->Arg(1)->Arg(16)->UseRealTime();
 
-// Several publishers of one topic.
+// Several publishers of one topic, with one subscriber.
 void manyPublishers(benchmark::State& state, const SubscribeOptions& options) {
   static Messenger* messenger = nullptr;
   static Subscriber* subscriber = nullptr;
@@ -177,22 +69,12 @@ void manyPublishers(benchmark::State& state, const SubscribeOptions& options) {
   state.SetItemsProcessed(state.iterations());
 }
 BENCHMARK_CAPTURE(manyPublishers, synchronous, SubscribeOptions())
-    ->Name("publishers/gslam")
+    ->Name("publishers_synchronous/gslam")
     ->ThreadRange(1, 4)
     ->UseRealTime();
-BENCHMARK_CAPTURE(manyPublishers, queued, inOwnThread().blockPublisher(4096))
-    ->Name("publishers_queued/gslam")
+BENCHMARK_CAPTURE(manyPublishers, dropping, inOwnThread().keepLast(4096))
+    ->Name("publishers_dropping/gslam")
     ->ThreadRange(1, 4)
     ->UseRealTime();
-
-void publishByName(benchmark::State& state) {
-  const Messenger messenger;
-  std::int64_t received = 0;
-  const Subscriber subscriber = messenger.subscribe<int>("n", [&](const int&) { ++received; });
-  const Message message = std::make_shared<const int>(1);
-  for (auto _ : state) messenger.publish<int>("/n", message);
-  benchmark::DoNotOptimize(received);
-}
-BENCHMARK(publishByName)->Name("publish_by_name/gslam");
 
 }  // namespace

@@ -130,7 +130,6 @@ TEST(Queued, CopiesAValueOnceAtMost) {
   EXPECT_EQ(copies, 1);
 }
 
-// The predecessor aborted at a queue of 1 and 2e6 messages.
 TEST(Overflow, DropsTheOldest) {
   for (const SubscribeOptions& options : queues()) {
     const Messenger messenger;

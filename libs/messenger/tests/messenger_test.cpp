@@ -58,6 +58,24 @@ TEST(Messenger, TakesMoveOnlyMessages) {
   EXPECT_EQ(got, 5);
 }
 
+TEST(Messenger, SendsByNameWhatIsCopiedMovedOrShared) {
+  const Messenger messenger;
+  std::vector<std::string> seen;
+  const Subscriber subscriber = messenger.subscribe<std::string>(
+      "/s", [&seen](const Shared<std::string>& message) { seen.push_back(*message); });
+  const std::string copied(100, 'c');
+  std::string moved(100, 'm');
+  const char* const text = moved.data();
+  messenger.publish<std::string>("/s", copied);
+  messenger.publish("/s", copied);
+  messenger.publish<std::string>("/s", "literal");
+  messenger.publish<std::string>("/s", std::make_shared<const std::string>("shared"));
+  EXPECT_THAT(seen, ElementsAre(copied, copied, "literal", "shared"));
+  gslam::Inbox<std::string> inbox = messenger.inbox<std::string>("/s");
+  messenger.publish("/s", std::move(moved));
+  EXPECT_EQ(inbox.take()->data(), text);
+}
+
 TEST(Messenger, MessageOutlivesItsPublisher) {
   Shared<std::string> kept;
   {

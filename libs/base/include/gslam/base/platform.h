@@ -1,4 +1,4 @@
-// Everything that depends on the compiler or the processor architecture stands in this file.
+// Everything that depends on the compiler, the processor or the system stands in this file.
 #ifndef GSLAM_BASE_PLATFORM_H
 #define GSLAM_BASE_PLATFORM_H
 
@@ -8,9 +8,13 @@
 #if defined(__GNUC__) || defined(__clang__)
 #include <cxxabi.h>
 #endif
+#if defined(__unix__) || defined(__APPLE__)
+#include <unistd.h>
+#endif
 
 /// @file
-/// Compiler and architecture differences: symbol visibility, SIMD target regions, names of types.
+/// Differences of compilers, architectures and systems: symbol visibility, SIMD target regions,
+/// names of types, processes.
 
 /// @def GSLAM_PUBLIC
 /// Marks a type whose identity must survive shared-library borders (exceptions, messages), so that
@@ -145,6 +149,15 @@ inline std::string readableTypeName(const char* name) {
   return text;
 #else
   return name;
+#endif
+}
+
+// Changes at fork(); 0 where there is no such thing.
+inline long processId() noexcept {
+#if defined(__unix__) || defined(__APPLE__)
+  return static_cast<long>(getpid());
+#else
+  return 0;
 #endif
 }
 

@@ -1,139 +1,38 @@
 #ifndef GSLAM_BASE_THREAD_POOL_H
 #define GSLAM_BASE_THREAD_POOL_H
 
-#include <gslam/base/error.h>
-#include <gslam/base/log.h>
+#include <gslam/base/workers.h>
 
-#include <algorithm>
-#include <condition_variable>
-#include <cstdlib>
-#include <deque>
-#include <exception>
-#include <functional>
 #include <future>
 #include <memory>
-#include <mutex>
-#include <string>
-#include <thread>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 /// @file
-/// A fixed set of worker threads.
+/// A fixed set of worker threads, with futures of what they do.
 
 namespace gslam {
 inline namespace v1 {
+namespace detail {
 
-/// How many threads GSLAM uses unless told: the environment variable `GSLAM_THREADS`, else the
-/// number of processors; at least 1.
-/// @throws ArgumentError when `GSLAM_THREADS` is no number from 1 to 4096
-inline unsigned defaultThreadCount() {
-  const char* const wish = std::getenv("GSLAM_THREADS");
-  if (wish == nullptr || *wish == '\0') return std::max(1u, std::thread::hardware_concurrency());
-  char* end = nullptr;
-  const long count = std::strtol(wish, &end, 10);
-  if (*end != '\0' || count < 1 || count > 4096) {
-    throw ArgumentError("GSLAM_THREADS",
-                        "is \"" + std::string(wish) + "\", expected a number from 1 to 4096");
-  }
-  return static_cast<unsigned>(count);
-}
-
-/// Worker threads that run tasks in the order they were submitted.
-///
-/// All members are thread-safe. The destructor runs what is queued, then joins. A task must not
-/// block on the future of another task of the same pool: with every worker waiting, nobody works
-/// (parallelFor() may be nested, because its caller works, too). A task must not destroy its own
-/// pool. After fork() a child has none of the threads and must not use the pool.
-class ThreadPool {
- public:
-  /// @param threads  number of workers; 0 means defaultThreadCount()
-  explicit ThreadPool(unsigned threads = 0) {
-    const unsigned count = threads == 0 ? defaultThreadCount() : threads;
-    workers_.reserve(count);
-    try {
-      for (unsigned i = 0; i < count; ++i) workers_.emplace_back([this] { work(); });
-    } catch (...) {  // the system has no more threads: join those that run before telling
-      stop();
-      throw;
-    }
-  }
-  ~ThreadPool() { stop(); }
-  ThreadPool(const ThreadPool&) = delete;
-  ThreadPool& operator=(const ThreadPool&) = delete;
-
-  /// The pool that parallelFor() uses unless told: with its caller it makes defaultThreadCount()
-  /// threads, but it has one worker at least. Made at the first call and never destroyed, so static
-  /// destructors may use it.
-  /// @throws std::system_error when the system has no thread for it
-  static ThreadPool& shared() {
-    static ThreadPool* const pool = new ThreadPool(std::max(2u, defaultThreadCount()) - 1);
-    return *pool;
-  }
-
-  /// Number of workers.
-  unsigned size() const noexcept { return static_cast<unsigned>(workers_.size()); }
-
-  /// Queues a call of `task()`.
-  /// @return its result, or what it throws
-  template <class Task>
-  std::future<decltype(std::declval<typename std::decay<Task>::type&>()())> submit(Task&& task) {
-    using Result = decltype(std::declval<typename std::decay<Task>::type&>()());
-    // Shared, because std::function wants what it holds to be copyable.
-    auto packaged = std::make_shared<std::packaged_task<Result()>>(std::forward<Task>(task));
-    std::future<Result> result = packaged->get_future();
-    post([packaged] { (*packaged)(); });
-    return result;
-  }
-
-  /// Queues a task whose end nobody waits for. What it throws is logged as an error and dropped:
-  /// where failure matters, use submit().
-  void post(std::function<void()> task) {
-    {
-      std::lock_guard<std::mutex> lock(mutex_);
-      tasks_.push_back(std::move(task));
-    }
-    ready_.notify_one();
-  }
-
- private:
-  void work() noexcept {
-    std::unique_lock<std::mutex> lock(mutex_);
-    while (true) {
-      ready_.wait(lock, [this] { return stopping_ || !tasks_.empty(); });
-      if (tasks_.empty()) return;
-      {
-        std::function<void()> task = std::move(tasks_.front());
-        tasks_.pop_front();
-        lock.unlock();
-        try {
-          task();
-        } catch (const std::exception& error) {
-          GSLAM_LOG(error) << "a task of the thread pool threw: " << error.what();
-        } catch (...) {
-          GSLAM_LOG(error) << "a task of the thread pool threw something that is no exception";
-        }
-      }  // the task's captures end before the lock is taken again
-      lock.lock();
-    }
-  }
-
-  void stop() {
-    {
-      std::lock_guard<std::mutex> lock(mutex_);
-      stopping_ = true;
-    }
-    ready_.notify_all();
-    for (std::thread& worker : workers_) worker.join();
-  }
-
-  std::mutex mutex_;  // guards tasks_ and stopping_
-  std::condition_variable ready_;
-  std::deque<std::function<void()>> tasks_;
-  bool stopping_ = false;
-  std::vector<std::thread> workers_;
+// What ThreadPool::submit() gives.
+template <class Task>
+struct Submitted {
+  using Result = decltype(std::declval<typename std::decay<Task>::type&>()());
+  using Future = std::future<Result>;
 };
+
+}  // namespace detail
+
+template <class Task>
+typename detail::Submitted<Task>::Future ThreadPool::submit(Task&& task) {
+  using Result = typename detail::Submitted<Task>::Result;
+  // Shared, because std::function wants what it holds to be copyable.
+  auto packaged = std::make_shared<std::packaged_task<Result()>>(std::forward<Task>(task));
+  std::future<Result> result = packaged->get_future();
+  post([packaged] { (*packaged)(); });
+  return result;
+}
 
 }  // namespace v1
 }  // namespace gslam

@@ -11,7 +11,7 @@
 #include <gslam/messenger/subscriber.h>
 
 #include <chrono>
-#include <map>
+#include <initializer_list>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -23,6 +23,16 @@
 
 namespace gslam {
 inline namespace v1 {
+namespace detail {
+
+/// Another name for a topic, and those that were given before.
+struct OtherName {
+  std::string from;
+  std::string to;
+  std::shared_ptr<const OtherName> before;
+};
+
+}  // namespace detail
 
 /// What Messenger::advertise() keeps of messages.
 enum class Latch {
@@ -49,10 +59,19 @@ class Messenger {
   /// @throws ArgumentError for an impossible name
   Messenger inNamespace(const std::string& space) const;
 
+  /// @{
   /// A handle of the same messenger that uses other names for some: with {{"image",
   /// "/camera/left"}} who subscribes to "image" gets "/camera/left".
+  /// @param names  pairs of strings, such as a std::map of them
   /// @throws ArgumentError for an impossible name
-  Messenger remapped(const std::map<std::string, std::string>& names) const;
+  Messenger remapped(std::initializer_list<std::pair<const std::string, std::string>> names) const {
+    return withNames(names);
+  }
+  template <class Map>
+  Messenger remapped(const Map& names) const {
+    return withNames(names);
+  }
+  /// @}
 
   /// Makes a sender for a topic.
   /// @throws ArgumentError for an impossible name, TypeMismatch when the topic carries another type
@@ -72,6 +91,12 @@ class Messenger {
   template <class T>
   void publish(const std::string& topic, const T& message) const {
     detail::Letter<T> letter(message);
+    find<T>(topic)->deliver(letter);
+  }
+  template <class T, class = typename std::enable_if<!std::is_lvalue_reference<T>::value &&
+                                                     !std::is_const<T>::value>::type>
+  void publish(const std::string& topic, T&& message) const {
+    detail::Letter<T> letter(std::forward<T>(message));
     find<T>(topic)->deliver(letter);
   }
   /// @}
@@ -162,9 +187,9 @@ class Messenger {
  private:
   template <class... Messages>
   friend class Synchronizer;
-  using Names = std::map<std::string, std::string>;
+  using Names = std::shared_ptr<const detail::OtherName>;
 
-  Messenger(std::shared_ptr<detail::Hub> hub, std::string space, std::shared_ptr<const Names> names)
+  Messenger(std::shared_ptr<detail::Hub> hub, std::string space, Names names)
       : hub_(std::move(hub)), space_(std::move(space)), names_(std::move(names)) {}
 
   template <class T>
@@ -177,6 +202,8 @@ class Messenger {
     return hub_->topic(resolved(topic), type);
   }
   std::string resolved(const std::string& topic) const;
+  template <class Map>
+  Messenger withNames(const Map& names) const;
 
   template <class Payload, class F>
   std::shared_ptr<detail::Subscription> makeSubscription(const SubscribeOptions& options,
@@ -184,8 +211,8 @@ class Messenger {
                                                          F callback) const;
 
   std::shared_ptr<detail::Hub> hub_;
-  std::string space_;                   // "" or such as "/orb"
-  std::shared_ptr<const Names> names_;  // null where nothing is remapped
+  std::string space_;  // "" or such as "/orb"
+  Names names_;        // the last of them; null where nothing is remapped
 };
 
 }  // namespace v1

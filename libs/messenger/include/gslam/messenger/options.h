@@ -2,7 +2,7 @@
 #define GSLAM_MESSENGER_OPTIONS_H
 
 #include <gslam/base/error.h>
-#include <gslam/base/thread_pool.h>
+#include <gslam/base/workers.h>
 
 #include <chrono>
 #include <cstddef>

@@ -54,11 +54,11 @@ class Subscriber {
     const std::shared_ptr<detail::Hub> hub = hub_.lock();
     if (!subscription) return;
     if (topic) {
-      detail::Hub::end(subscription, {topic}, pending);
+      detail::Hub::end(subscription, &topic, 1, pending);
     } else if (hub) {
       hub->endPattern(subscription, pending);
     } else {
-      detail::Hub::end(subscription, {}, pending);
+      detail::Hub::end(subscription, nullptr, 0, pending);
     }
   }
 

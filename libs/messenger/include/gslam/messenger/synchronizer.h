@@ -14,7 +14,6 @@
 #include <memory>
 #include <string>
 #include <utility>
-#include <vector>
 
 /// @file
 /// Messages of several topics that belong together in time.
@@ -73,10 +72,10 @@ class Synchronizer {
     if (queue_size == 0) throw ArgumentError("queue_size", "is 0, expected 1 or more");
     if (detail::isEmpty(callback, 0))
       throw ArgumentError("callback", "is empty, expected a function");
-    std::vector<std::string> names;
-    for (const std::string& topic : topics) names.push_back(messenger.resolved(topic));
+    std::array<std::string, sizeof...(Messages)> names;
+    for (std::size_t i = 0; i < size(); ++i) names[i] = messenger.resolved(topics[i]);
     delivery_ = std::make_shared<detail::TypedSetDelivery<F, Messages...>>(
-        detail::makeMatcher(policy, size(), queue_size), std::move(names), queue_size,
+        detail::makeMatcher<sizeof...(Messages)>(policy, queue_size), std::move(names), queue_size,
         messenger.hub_->errors(), std::move(callback));
     subscribe(messenger, topics, typename detail::MakeIndices<sizeof...(Messages)>::Type());
   }
@@ -95,7 +94,7 @@ class Synchronizer {
   /// Ends the subscriptions.
   void unsubscribe() noexcept {
     // Taken out first: the end of the callback may destroy this object, which it may own.
-    const std::shared_ptr<detail::SetDelivery> delivery = std::move(delivery_);
+    const std::shared_ptr<Delivery> delivery = std::move(delivery_);
     const Subscribers subscribers = std::move(subscribers_);
     if (delivery) delivery->end();
   }
@@ -128,6 +127,7 @@ class Synchronizer {
 
  private:
   using Subscribers = std::array<Subscriber, sizeof...(Messages)>;
+  using Delivery = detail::SetDelivery<sizeof...(Messages)>;
 
   template <std::size_t... Is>
   void subscribe(const Messenger& messenger,
@@ -139,7 +139,7 @@ class Synchronizer {
 
   template <class T>
   Subscriber subscribeTo(const Messenger& messenger, const std::string& name, std::size_t topic) {
-    const std::shared_ptr<detail::SetDelivery> delivery = delivery_;
+    const std::shared_ptr<Delivery> delivery = delivery_;
     return messenger.subscribe<T>(
         name, SubscribeOptions().named("synchronizer"),
         [delivery, topic](const std::shared_ptr<const T>& message) {
@@ -147,7 +147,7 @@ class Synchronizer {
         });
   }
 
-  std::shared_ptr<detail::SetDelivery> delivery_;
+  std::shared_ptr<Delivery> delivery_;
   Subscribers subscribers_;
 };
 

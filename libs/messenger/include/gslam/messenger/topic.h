@@ -1,6 +1,7 @@
 #ifndef GSLAM_MESSENGER_TOPIC_H
 #define GSLAM_MESSENGER_TOPIC_H
 
+#include <gslam/base/platform.h>
 #include <gslam/messenger/detail/payload_type.h>
 #include <gslam/messenger/detail/read_mostly.h>
 #include <gslam/messenger/detail/subscription.h>
@@ -22,14 +23,14 @@ namespace gslam {
 inline namespace v1 {
 namespace detail {
 
-class Topic {
+class Topic final : public Mortal {
  public:
   using List = std::vector<std::shared_ptr<Subscription>>;
 
   /// @param changes  the topic that tells of changes; null for that topic itself
   Topic(const std::string& name, PayloadType type, std::shared_ptr<ErrorSink> errors,
         const std::shared_ptr<Topic>& changes)
-      : facts_{std::make_shared<const std::string>(name), type},
+      : facts_{std::make_shared<std::string>(name), type},
         errors_(std::move(errors)),
         changes_(changes),
         list_(List()) {}
@@ -41,21 +42,18 @@ class Topic {
   static std::shared_ptr<Topic> make(const std::string& name, PayloadType type,
                                      std::shared_ptr<ErrorSink> errors,
                                      const std::shared_ptr<Topic>& changes) {
-    std::unique_ptr<Topic> made(new Topic(name, type, std::move(errors), changes));
-    return std::shared_ptr<Topic>(made.release(), [](Topic* topic) {
-      std::shared_ptr<void> owner(topic, [](void* last) { delete static_cast<Topic*>(last); });
-      Delivering::destroyLater(std::move(owner));
-    });
+    Topic* const made = new Topic(name, type, std::move(errors), changes);
+    return std::shared_ptr<Topic>(made, &Topic::endLater);
   }
 
   /// Nobody publishes or subscribes any more.
-  ~Topic() {
-    for (const std::shared_ptr<Subscription>& one : list_.copy()) leave(one);
+  ~Topic() override {
+    for (const std::shared_ptr<Subscription>& one : list_.copy()) leave(one, *errors_);
   }
 
   /// Calls everyone who listens now, in the order of subscribing.
   void deliver(AnyLetter& letter) {
-    const Delivering delivering;
+    const Delivering delivering(errors_->thread());
     if (is_latched_.load(std::memory_order_relaxed)) return deliverAndKeep(letter);
     const ReadMostly<List>::Reader list(list_);
     deliverTo(*list, letter);
@@ -72,7 +70,7 @@ class Topic {
       const Latched last = latched();
       seen = last.number;
       if (last.letter == nullptr) continue;
-      const Delivering delivering;
+      const Delivering delivering(errors_->thread());
       errors_->guard(name(), [&] { subscription->receive(*last.letter, facts_); });
     }
   }
@@ -82,7 +80,9 @@ class Topic {
     bool added = false;
     list_.replace([&](const List& list) {
       added = list.empty();
-      return added ? List(1, subscription) : list;
+      List next = list;
+      if (added) next.push_back(subscription);
+      return next;
     });
     if (added) ++subscription->places;
     return added;
@@ -93,7 +93,6 @@ class Topic {
     bool was_there = false;
     list_.replace([&](const List& list) {
       List next;
-      next.reserve(list.size());
       for (const std::shared_ptr<Subscription>& one : list) {
         if (one != subscription) next.push_back(one);
       }
@@ -105,7 +104,7 @@ class Topic {
   }
   /// Waits for the publishers that are delivering just now; not in a callback.
   void waitForPublishers() {
-    if (!Delivering::isHere()) list_.waitForReaders();
+    if (!errors_->thread().isCalling()) list_.waitForReaders();
   }
 
   /// Tells those who want to know.
@@ -123,13 +122,15 @@ class Topic {
   std::atomic<std::size_t> publisher_count{0};
 
   /// One place less; who gives up the last ends the subscription.
-  static void leave(const std::shared_ptr<Subscription>& subscription) {
+  static void leave(const std::shared_ptr<Subscription>& subscription, const ErrorSink& errors) {
     if (--subscription->places > 0 || !subscription->is_active.exchange(false)) return;
     subscription->close(subscription->atEnd());
-    if (!Delivering::isHere()) subscription->finish();
+    if (!errors.thread().isCalling()) subscription->finish();
   }
 
  private:
+  static void endLater(Topic* topic) { topic->errors_->thread().destroyLater(topic); }
+
   struct Latched {
     std::shared_ptr<AnyLetter> letter;
     std::uint64_t number;
@@ -141,14 +142,21 @@ class Topic {
   }
 
   void deliverTo(const List& list, AnyLetter& letter) {
-    for (const std::shared_ptr<Subscription>& subscription : list) {
-      if (!subscription->is_active.load(std::memory_order_acquire)) continue;
-      errors_->guard(name(), [&] { subscription->receive(letter, facts_); });
+    const std::shared_ptr<Subscription>* next = list.data();
+    const std::shared_ptr<Subscription>* const end = next + list.size();
+    while (next != end) {
+      errors_->guard(name(), [&] {
+        while (next != end) {
+          Subscription& one = **next;
+          ++next;  // who throws has had his turn
+          if (one.is_active.load(std::memory_order_acquire)) one.receive(letter, facts_);
+        }
+      });
     }
   }
 
   // Who is added after the message was kept gets it from there, and so not from this list.
-  void deliverAndKeep(AnyLetter& letter) {
+  GSLAM_COLD void deliverAndKeep(AnyLetter& letter) {
     const std::shared_ptr<AnyLetter> kept = letter.kept();
     std::unique_lock<std::mutex> lock(latch_mutex_);
     latched_.letter = kept;

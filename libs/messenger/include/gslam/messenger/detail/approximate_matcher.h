@@ -18,12 +18,15 @@ inline std::uint64_t nanosecondsBetween(std::int64_t from, std::int64_t to) noex
 }
 
 /// What ApproximateTime says, which names the terms used here.
-class ApproximateMatcher final : public Matcher {
+template <std::size_t Topics>
+class ApproximateMatcher final : public Matcher<Topics> {
  public:
-  ApproximateMatcher(const ApproximateTime& policy, std::size_t topics, std::size_t queue_size)
-      : policy_(policy), queue_size_(queue_size), queues_(topics) {}
+  using Result = MatchResult<Topics>;
 
-  void add(std::size_t topic, StampedMessage one, MatchResult& result) override {
+  ApproximateMatcher(const ApproximateTime& policy, std::size_t queue_size)
+      : policy_(policy), queue_size_(queue_size) {}
+
+  void add(std::size_t topic, StampedMessage one, Result& result) override {
     Queue& queue = queues_[topic];
     if (one.stamp < queue.newest) {
       result.dropped.push_back({topic, std::move(one.message)});
@@ -37,8 +40,8 @@ class ApproximateMatcher final : public Matcher {
     match(result);
   }
 
-  void clear(MatchResult& result) override {
-    for (std::size_t topic = 0; topic < queues_.size(); ++topic) {
+  void clear(Result& result) override {
+    for (std::size_t topic = 0; topic < Topics; ++topic) {
       while (!queues_[topic].messages.empty()) dropFirst(topic, result);
       queues_[topic].newest = Queue().newest;
     }
@@ -52,9 +55,9 @@ class ApproximateMatcher final : public Matcher {
     std::int64_t newest = std::numeric_limits<std::int64_t>::min();  // also of those that left
   };
   // One message of each queue, by its place there.
-  using Places = std::array<std::size_t, max_synchronized_topics>;
+  using Places = std::array<std::size_t, Topics>;
 
-  void match(MatchResult& result) {
+  void match(Result& result) {
     while (dropHopeless(result)) {
       Places best = {{0}};
       if (!findBest(best)) return dropWorse(best, result);
@@ -64,8 +67,8 @@ class ApproximateMatcher final : public Matcher {
 
   // Every set to come has a message at the pivot or later, so what is too early for the pivot is
   // too early for all. Then the first messages of the queues make a set. False where there is none.
-  bool dropHopeless(MatchResult& result) {
-    for (std::size_t topic = 0; topic < queues_.size();) {
+  bool dropHopeless(Result& result) {
+    for (std::size_t topic = 0; topic < Topics;) {
       if (std::any_of(queues_.begin(), queues_.end(), isEmpty)) return false;
       if (nanosecondsBetween(firstStamp(topic), pivot()) <= policy_.max_gap) {
         ++topic;
@@ -97,9 +100,9 @@ class ApproximateMatcher final : public Matcher {
 
   // Sets before the best one so far are out of question. Up to the pivot their messages can go; it
   // saves to look at them again.
-  void dropWorse(const Places& best, MatchResult& result) {
+  void dropWorse(const Places& best, Result& result) {
     const std::int64_t middle = pivot();
-    for (std::size_t topic = 0; topic < queues_.size(); ++topic) {
+    for (std::size_t topic = 0; topic < Topics; ++topic) {
       for (std::size_t i = 0; i < best[topic]; ++i) {
         if (queues_[topic].messages[1].stamp > middle) break;
         dropFirst(topic, result);
@@ -107,9 +110,9 @@ class ApproximateMatcher final : public Matcher {
     }
   }
 
-  void deliver(const Places& best, MatchResult& result) {
-    MessageSet set;
-    for (std::size_t topic = 0; topic < queues_.size(); ++topic) {
+  void deliver(const Places& best, Result& result) {
+    MessageSet<Topics> set;
+    for (std::size_t topic = 0; topic < Topics; ++topic) {
       for (std::size_t i = 0; i < best[topic]; ++i) dropFirst(topic, result);
       set[topic] = std::move(queues_[topic].messages.front().message);
       queues_[topic].messages.pop_front();
@@ -117,7 +120,7 @@ class ApproximateMatcher final : public Matcher {
     result.sets.push_back(std::move(set));
   }
 
-  void dropFirst(std::size_t topic, MatchResult& result) {
+  void dropFirst(std::size_t topic, Result& result) {
     std::deque<StampedMessage>& messages = queues_[topic].messages;
     result.dropped.push_back({topic, std::move(messages.front().message)});
     messages.pop_front();
@@ -127,7 +130,7 @@ class ApproximateMatcher final : public Matcher {
   std::int64_t firstStamp(std::size_t topic) const { return queues_[topic].messages.front().stamp; }
   std::int64_t pivot() const {
     std::int64_t latest = firstStamp(0);
-    for (std::size_t i = 1; i < queues_.size(); ++i) latest = std::max(latest, firstStamp(i));
+    for (std::size_t i = 1; i < Topics; ++i) latest = std::max(latest, firstStamp(i));
     return latest;
   }
 
@@ -141,7 +144,7 @@ class ApproximateMatcher final : public Matcher {
   }
 
   bool isBeyondQueues(const Places& at) const {
-    for (std::size_t i = 0; i < queues_.size(); ++i) {
+    for (std::size_t i = 0; i < Topics; ++i) {
       if (at[i] >= queues_[i].messages.size()) return true;
     }
     return false;
@@ -149,7 +152,7 @@ class ApproximateMatcher final : public Matcher {
 
   std::size_t earliest(const Places& at, std::int64_t middle) const {
     std::size_t first = 0;
-    for (std::size_t i = 1; i < queues_.size(); ++i) {
+    for (std::size_t i = 1; i < Topics; ++i) {
       if (stamp(i, at[i], middle) < stamp(first, at[first], middle)) first = i;
     }
     return first;
@@ -159,7 +162,7 @@ class ApproximateMatcher final : public Matcher {
   std::uint64_t cost(const Places& at, std::int64_t middle) const {
     std::int64_t from = middle;
     std::int64_t to = middle;
-    for (std::size_t i = 0; i < queues_.size(); ++i) {
+    for (std::size_t i = 0; i < Topics; ++i) {
       from = std::min(from, stamp(i, at[i], middle));
       to = std::max(to, stamp(i, at[i], middle));
     }
@@ -174,12 +177,13 @@ class ApproximateMatcher final : public Matcher {
 
   const ApproximateTime policy_;
   const std::size_t queue_size_;
-  std::vector<Queue> queues_;
+  std::array<Queue, Topics> queues_;
 };
 
-inline std::unique_ptr<Matcher> makeMatcher(const ApproximateTime& policy, std::size_t topics,
-                                            std::size_t queue_size) {
-  return std::unique_ptr<Matcher>(new ApproximateMatcher(policy, topics, queue_size));
+template <std::size_t Topics>
+std::unique_ptr<Matcher<Topics>> makeMatcher(const ApproximateTime& policy,
+                                             std::size_t queue_size) {
+  return std::unique_ptr<Matcher<Topics>>(new ApproximateMatcher<Topics>(policy, queue_size));
 }
 
 }  // namespace detail

@@ -2,7 +2,8 @@
 #ifndef GSLAM_MESSENGER_DETAIL_ERROR_SINK_H
 #define GSLAM_MESSENGER_DETAIL_ERROR_SINK_H
 
-#include <gslam/base/log.h>
+#include <gslam/base/log_hook.h>
+#include <gslam/base/platform.h>
 
 #include <exception>
 #include <functional>
@@ -10,7 +11,6 @@
 #include <mutex>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace gslam {
 inline namespace v1 {
@@ -20,43 +20,78 @@ using CallbackErrorHandler = std::function<void(const std::string& topic, std::e
 
 namespace detail {
 
-/// While one lives, this thread runs callbacks. Such a thread must not wait for the end of other
-/// callbacks: they might wait for it.
-class Delivering {
+/// What ends after the callbacks that run in it.
+class Mortal {
  public:
-  Delivering() noexcept { ++depth(); }
-  ~Delivering() {
-    if (--depth() == 0 && !graves().empty()) bury();
-  }
-  Delivering(const Delivering&) = delete;
-  Delivering& operator=(const Delivering&) = delete;
+  Mortal() = default;
+  virtual ~Mortal() = default;
+  Mortal(const Mortal&) = delete;
+  Mortal& operator=(const Mortal&) = delete;
 
-  static bool isHere() noexcept { return depth() > 0; }
+ private:
+  friend class CallbackThread;
+  Mortal* next_ = nullptr;  // that waits for its end
+};
+
+/// Whether a thread is in callbacks. Such a thread must not wait for the end of other callbacks:
+/// they might wait for it.
+class CallbackThread {
+ public:
+  bool isCalling() const noexcept { return depth_ > 0; }
+  void enter() noexcept { ++depth_; }
+  void leave() noexcept {
+    if (--depth_ == 0 && graves_ != nullptr) bury();
+  }
 
   /// Destroys an object after the callbacks of this thread have returned, which may be inside of
   /// it; at once where there are none.
-  static void destroyLater(std::shared_ptr<void> object) {
-    if (isHere()) graves().push_back(std::move(object));
+  void destroyLater(Mortal* object) noexcept {
+    object->next_ = graves_;
+    graves_ = object;
+    if (depth_ == 0) bury();
+  }
+
+  /// This thread. A library with hidden visibility has another view of it than its host, so what
+  /// belongs to a messenger asks its ErrorSink.
+  static CallbackThread& ofThisLibrary() noexcept {
+    static thread_local CallbackThread thread;
+    return thread;
   }
 
  private:
-  static int& depth() noexcept {
-    static thread_local int depth = 0;
-    return depth;
+  GSLAM_COLD void bury() noexcept {
+    while (Mortal* const object = graves_) {
+      graves_ = object->next_;
+      delete object;
+    }
   }
-  static std::vector<std::shared_ptr<void>>& graves() noexcept {
-    static thread_local std::vector<std::shared_ptr<void>> objects;
-    return objects;
-  }
-  static void bury() {
-    std::vector<std::shared_ptr<void>> objects;
-    objects.swap(graves());
-  }
+
+  int depth_ = 0;
+  Mortal* graves_ = nullptr;
+};
+
+/// While one lives, this thread runs callbacks.
+class Delivering {
+ public:
+  explicit Delivering(CallbackThread& thread) noexcept : thread_(thread) { thread_.enter(); }
+  ~Delivering() { thread_.leave(); }
+  Delivering(const Delivering&) = delete;
+  Delivering& operator=(const Delivering&) = delete;
+
+ private:
+  CallbackThread& thread_;
 };
 
 /// Gives what callbacks throw to a handler; to the log where there is none.
 class ErrorSink {
  public:
+  /// This thread, as the one sees it who made the messenger, and so the same for all libraries that
+  /// use it.
+  CallbackThread& thread() const noexcept {
+    // mostly it is this library, whose function can be inlined
+    return thread_ == &CallbackThread::ofThisLibrary ? CallbackThread::ofThisLibrary() : thread_();
+  }
+
   void set(CallbackErrorHandler handler) {
     auto next = std::make_shared<const CallbackErrorHandler>(std::move(handler));
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -72,7 +107,7 @@ class ErrorSink {
     }
   }
 
-  void report(const std::string& topic, const std::exception_ptr& error) {
+  GSLAM_COLD void report(const std::string& topic, const std::exception_ptr& error) {
     std::shared_ptr<const CallbackErrorHandler> handler;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -82,14 +117,17 @@ class ErrorSink {
       if (handler != nullptr && *handler) return (*handler)(topic, error);
       std::rethrow_exception(error);
     } catch (const std::exception& problem) {
-      GSLAM_LOG(error) << "a subscriber of " << topic << " threw: " << problem.what();
+      logParts(LogLevel::error, __FILE__, __LINE__,
+               {"a subscriber of ", topic.c_str(), " threw: ", problem.what()});
     } catch (...) {
-      GSLAM_LOG(error) << "a subscriber of " << topic << " threw something that is no exception";
+      logParts(LogLevel::error, __FILE__, __LINE__,
+               {"a subscriber of ", topic.c_str(), " threw something that is no exception"});
     }
   }
 
  private:
-  std::mutex mutex_;
+  CallbackThread& (*const thread_)() noexcept = &CallbackThread::ofThisLibrary;
+  std::mutex mutex_;  // guards handler_
   std::shared_ptr<const CallbackErrorHandler> handler_;
 };
 

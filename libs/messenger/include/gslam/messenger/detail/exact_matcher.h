@@ -11,17 +11,19 @@ inline namespace v1 {
 namespace detail {
 
 /// What ExactTime says.
-class ExactMatcher final : public Matcher {
+template <std::size_t Topics>
+class ExactMatcher final : public Matcher<Topics> {
  public:
-  ExactMatcher(std::size_t topics, std::size_t queue_size)
-      : topics_(topics), queue_size_(queue_size) {}
+  using Result = MatchResult<Topics>;
 
-  void add(std::size_t topic, StampedMessage one, MatchResult& result) override {
+  explicit ExactMatcher(std::size_t queue_size) : queue_size_(queue_size) {}
+
+  void add(std::size_t topic, StampedMessage one, Result& result) override {
     if (has_delivered_ && one.stamp <= last_delivered_) {
       result.dropped.push_back({topic, std::move(one.message)});
       return;
     }
-    const Sets::iterator set = sets_.emplace(one.stamp, MessageSet()).first;
+    const SetPlace set = sets_.emplace(one.stamp, MessageSet<Topics>()).first;
     std::shared_ptr<const void>& place = set->second[topic];
     place.swap(one.message);
     if (one.message != nullptr) {
@@ -33,28 +35,30 @@ class ExactMatcher final : public Matcher {
     }
   }
 
-  void clear(MatchResult& result) override {
+  void clear(Result& result) override {
     while (!sets_.empty()) dropFirst(result);
     has_delivered_ = false;
   }
 
   std::size_t waiting(std::size_t topic) const override {
     std::size_t count = 0;
-    for (const Sets::value_type& set : sets_) count += set.second[topic] != nullptr ? 1 : 0;
+    for (const typename Sets::value_type& set : sets_)
+      count += set.second[topic] != nullptr ? 1 : 0;
     return count;
   }
 
  private:
-  using Sets = std::map<std::int64_t, MessageSet>;  // by stamp
+  using Sets = std::map<std::int64_t, MessageSet<Topics>>;  // by stamp
+  using SetPlace = typename Sets::iterator;
 
-  bool isComplete(const MessageSet& set) const {
-    for (std::size_t topic = 0; topic < topics_; ++topic) {
-      if (set[topic] == nullptr) return false;
+  static bool isComplete(const MessageSet<Topics>& set) {
+    for (const std::shared_ptr<const void>& message : set) {
+      if (message == nullptr) return false;
     }
     return true;
   }
 
-  void deliver(Sets::iterator set, MatchResult& result) {
+  void deliver(SetPlace set, Result& result) {
     while (sets_.begin() != set) dropFirst(result);
     result.sets.push_back(std::move(set->second));
     last_delivered_ = set->first;
@@ -62,24 +66,23 @@ class ExactMatcher final : public Matcher {
     sets_.erase(set);
   }
 
-  void dropFirst(MatchResult& result) {
-    MessageSet& first = sets_.begin()->second;
-    for (std::size_t topic = 0; topic < topics_; ++topic) {
+  void dropFirst(Result& result) {
+    MessageSet<Topics>& first = sets_.begin()->second;
+    for (std::size_t topic = 0; topic < Topics; ++topic) {
       if (first[topic] != nullptr) result.dropped.push_back({topic, std::move(first[topic])});
     }
     sets_.erase(sets_.begin());
   }
 
-  const std::size_t topics_;
   const std::size_t queue_size_;
   Sets sets_;
   std::int64_t last_delivered_ = 0;
   bool has_delivered_ = false;
 };
 
-inline std::unique_ptr<Matcher> makeMatcher(const ExactTime&, std::size_t topics,
-                                            std::size_t queue_size) {
-  return std::unique_ptr<Matcher>(new ExactMatcher(topics, queue_size));
+template <std::size_t Topics>
+std::unique_ptr<Matcher<Topics>> makeMatcher(const ExactTime&, std::size_t queue_size) {
+  return std::unique_ptr<Matcher<Topics>>(new ExactMatcher<Topics>(queue_size));
 }
 
 }  // namespace detail

@@ -5,7 +5,6 @@
 #include <gslam/messenger/detail/topic_name.h>
 #include <gslam/messenger/topic.h>
 
-#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -16,19 +15,54 @@ namespace gslam {
 inline namespace v1 {
 namespace detail {
 
-/// Topics by name.
+using Topics = std::vector<std::shared_ptr<Topic>>;
+
+/// Topics in the order of their names, found by halving: there are few, and they stay.
+class TopicTable {
+ public:
+  const Topics& all() const noexcept { return all_; }
+
+  /// Null where there is none of that name.
+  std::shared_ptr<Topic> find(const std::string& name) const {
+    const std::size_t place = placeOf(name);
+    return place < all_.size() && all_[place]->name() == name ? all_[place] : nullptr;
+  }
+
+  void add(const std::shared_ptr<Topic>& topic) {
+    const std::size_t place = placeOf(topic->name());
+    all_.push_back(topic);
+    for (std::size_t i = all_.size() - 1; i > place; --i) all_[i].swap(all_[i - 1]);
+  }
+
+ private:
+  // Of the first that is not before the name.
+  std::size_t placeOf(const std::string& name) const {
+    std::size_t first = 0;
+    for (std::size_t end = all_.size(); first < end;) {
+      const std::size_t middle = first + (end - first) / 2;
+      if (all_[middle]->name() < name) {
+        first = middle + 1;
+      } else {
+        end = middle;
+      }
+    }
+    return first;
+  }
+
+  Topics all_;
+};
+
+/// All that is in a messenger.
 class Hub {
  public:
-  using Topics = std::map<std::string, std::shared_ptr<Topic>>;
-
   Hub()
       : errors_(std::make_shared<ErrorSink>()),
         changes_(
             Topic::make("/messenger/changes", PayloadType::of<TopicChange>(), errors_, nullptr)) {
-    topics_[changes_->name()] = changes_;
+    topics_.add(changes_);
   }
   ~Hub() {
-    for (const std::shared_ptr<Subscription>& one : patterns_) Topic::leave(one);
+    for (const std::shared_ptr<Subscription>& one : patterns_) Topic::leave(one, *errors_);
   }
   Hub(const Hub&) = delete;
   Hub& operator=(const Hub&) = delete;
@@ -40,7 +74,7 @@ class Hub {
   std::shared_ptr<Topic> topic(const std::string& name, const PayloadType& type) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (is_shut_down_) throw Error("the messenger was shut down: nothing can be joined to it");
-    std::shared_ptr<Topic>& found = topics_[name];
+    std::shared_ptr<Topic> found = topics_.find(name);
     if (!found) found = makeTopic(name, type);
     if (found->type() != type) throw TypeMismatch(name, found->type().name(), type.name());
     return found;
@@ -50,8 +84,9 @@ class Hub {
   std::shared_ptr<Topic> knownTopic(const std::string& name, const PayloadType& type) const {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (is_shut_down_) return nullptr;
-    const Topics::const_iterator found = topics_.find(name);
-    return found != topics_.end() && found->second->type() == type ? found->second : nullptr;
+    std::shared_ptr<Topic> found = topics_.find(name);
+    if (found != nullptr && found->type() != type) found.reset();
+    return found;
   }
 
   /// The topic on which calls of that service go, made where there is none.
@@ -59,8 +94,11 @@ class Hub {
   std::shared_ptr<Topic> service(const std::string& name, const PayloadType& type) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (is_shut_down_) throw Error("the messenger was shut down: nothing can be joined to it");
-    std::shared_ptr<Topic>& found = services_[name];
-    if (!found) found = Topic::make(name, type, errors_, nullptr);
+    std::shared_ptr<Topic> found = services_.find(name);
+    if (!found) {
+      found = Topic::make(name, type, errors_, nullptr);
+      services_.add(found);
+    }
     if (found->type() != type) throw TypeMismatch(name, found->type().name(), type.name());
     return found;
   }
@@ -68,44 +106,46 @@ class Hub {
   /// Whether somebody answers calls of that service.
   bool isServed(const std::string& name) const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const Topics::const_iterator found = services_.find(name);
-    return found != services_.end() && !found->second->subscriptions().empty();
+    const std::shared_ptr<Topic> found = services_.find(name);
+    return found != nullptr && !found->subscriptions().empty();
   }
 
   /// Ends all subscriptions, and refuses more.
   void shutDown(Pending pending) {
-    std::vector<std::shared_ptr<Topic>> all;
-    std::vector<std::shared_ptr<Subscription>> subscriptions;
+    Topics all;
+    Topic::List subscriptions;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       is_shut_down_ = true;
       subscriptions.swap(patterns_);
-      for (const Topics* topics : {&topics_, &services_}) {
-        for (const Topics::value_type& one : *topics) all.push_back(one.second);
-      }
+      all = topics_.all();
+      for (const std::shared_ptr<Topic>& one : services_.all()) all.push_back(one);
     }
     for (const std::shared_ptr<Topic>& one : all) {
-      const Topic::List list = one->subscriptions();
-      subscriptions.insert(subscriptions.end(), list.begin(), list.end());
+      for (const std::shared_ptr<Subscription>& its : one->subscriptions()) {
+        subscriptions.push_back(its);
+      }
     }
-    for (const std::shared_ptr<Subscription>& one : subscriptions) end(one, all, pending);
+    for (const std::shared_ptr<Subscription>& one : subscriptions) {
+      end(one, all.data(), all.size(), pending);
+    }
   }
 
   /// All topics that there are now.
   Topics topics() const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return topics_;
+    return topics_.all();
   }
 
   /// Adds one who listens to all topics that match its pattern, now and later.
   void addPattern(const std::shared_ptr<Subscription>& subscription) {
-    std::vector<std::shared_ptr<Topic>> matching;
+    Topics matching;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       patterns_.push_back(subscription);
       ++subscription->places;
-      for (const Topics::value_type& one : topics_) {
-        if (matches(subscription->topic(), one.first)) matching.push_back(one.second);
+      for (const std::shared_ptr<Topic>& one : topics_.all()) {
+        if (matches(subscription->topic(), one->name())) matching.push_back(one);
       }
     }
     for (const std::shared_ptr<Topic>& one : matching) {
@@ -116,27 +156,28 @@ class Hub {
 
   /// Ends a subscription to a pattern.
   void endPattern(const std::shared_ptr<Subscription>& subscription, Pending pending) {
-    std::vector<std::shared_ptr<Topic>> all;
+    Topics all;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      for (auto one = patterns_.begin(); one != patterns_.end(); ++one) {
-        if (*one != subscription) continue;
-        patterns_.erase(one);
+      for (std::size_t i = 0; i < patterns_.size(); ++i) {
+        if (patterns_[i] != subscription) continue;
+        for (; i + 1 < patterns_.size(); ++i) patterns_[i].swap(patterns_[i + 1]);
+        patterns_.pop_back();
         --subscription->places;
-        break;
       }
-      for (const Topics::value_type& one : topics_) all.push_back(one.second);
+      all = topics_.all();
     }
-    end(subscription, all, pending);
+    end(subscription, all.data(), all.size(), pending);
   }
 
   /// Takes a subscription out of those of the topics that it is in, and ends it.
+  /// @param topics  `count` of them
   static void end(const std::shared_ptr<Subscription>& subscription,
-                  const std::vector<std::shared_ptr<Topic>>& topics, Pending pending) {
+                  const std::shared_ptr<Topic>* topics, std::size_t count, Pending pending) {
     if (!subscription->is_active.exchange(false)) return;
-    std::vector<std::shared_ptr<Topic>> left;
-    for (const std::shared_ptr<Topic>& one : topics) {
-      if (one->remove(subscription)) left.push_back(one);
+    Topics left;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (topics[i]->remove(subscription)) left.push_back(topics[i]);
     }
     subscription->close(pending);  // lets publishers go that wait for room
     for (const std::shared_ptr<Topic>& one : left) one->waitForPublishers();
@@ -159,15 +200,16 @@ class Hub {
     for (const std::shared_ptr<Subscription>& one : patterns_) {
       if (matches(one->topic(), name)) made->add(one);
     }
+    topics_.add(made);
     return made;
   }
 
   const std::shared_ptr<ErrorSink> errors_;
   const std::shared_ptr<Topic> changes_;
   mutable std::mutex mutex_;  // guards all below
-  Topics topics_;
-  Topics services_;
-  std::vector<std::shared_ptr<Subscription>> patterns_;
+  TopicTable topics_;
+  TopicTable services_;
+  Topic::List patterns_;
   bool is_shut_down_ = false;
 };
 

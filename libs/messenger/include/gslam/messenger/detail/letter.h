@@ -19,7 +19,7 @@ class AnyLetter {
   AnyLetter& operator=(const AnyLetter&) = delete;
   virtual std::shared_ptr<const void> shareAny() = 0;
   /// One that owns the message and may be read by several threads.
-  virtual std::shared_ptr<AnyLetter> kept() = 0;
+  virtual std::unique_ptr<AnyLetter> kept() = 0;
 };
 
 template <class T>
@@ -49,7 +49,9 @@ class Letter final : public AnyLetter {
     return *shared_;
   }
   std::shared_ptr<const void> shareAny() override { return share(); }
-  std::shared_ptr<AnyLetter> kept() override { return std::make_shared<Letter>(Owned(), share()); }
+  std::unique_ptr<AnyLetter> kept() override {
+    return std::unique_ptr<AnyLetter>(new Letter(Owned(), share()));
+  }
 
  private:
   static Shared copy(const T& message) { return std::make_shared<const T>(message); }

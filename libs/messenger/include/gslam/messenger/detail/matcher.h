@@ -21,30 +21,35 @@ struct StampedMessage {
 };
 
 /// One message of each topic.
-using MessageSet = std::array<std::shared_ptr<const void>, max_synchronized_topics>;
+template <std::size_t Topics>
+using MessageSet = std::array<std::shared_ptr<const void>, Topics>;
 
 /// What becomes of messages when one more has come.
+template <std::size_t Topics>
 struct MatchResult {
   struct Dropped {
     std::size_t topic;
     std::shared_ptr<const void> message;
   };
-  std::vector<MessageSet> sets;  // in the order of time
-  std::vector<Dropped> dropped;  // kept, so that they can be destroyed without a lock
+  std::vector<MessageSet<Topics>> sets;  // in the order of time
+  std::vector<Dropped> dropped;          // kept, so that they can be destroyed without a lock
 };
 
 /// Keeps messages until it knows their set. Not thread-safe.
+template <std::size_t Topics>
 class Matcher {
  public:
+  using Result = MatchResult<Topics>;
+
   Matcher() = default;
   virtual ~Matcher() = default;
   Matcher(const Matcher&) = delete;
   Matcher& operator=(const Matcher&) = delete;
 
   /// One more message.
-  virtual void add(std::size_t topic, StampedMessage message, MatchResult& result) = 0;
+  virtual void add(std::size_t topic, StampedMessage message, Result& result) = 0;
   /// Drops all messages, and forgets all stamps.
-  virtual void clear(MatchResult& result) = 0;
+  virtual void clear(Result& result) = 0;
   /// Messages of a topic that are kept.
   virtual std::size_t waiting(std::size_t topic) const = 0;
 };

@@ -2,6 +2,8 @@
 #ifndef GSLAM_MESSENGER_DETAIL_MESSAGE_QUEUE_H
 #define GSLAM_MESSENGER_DETAIL_MESSAGE_QUEUE_H
 
+#include <gslam/base/detail/ring.h>
+#include <gslam/messenger/detail/brief_wait.h>
 #include <gslam/messenger/options.h>
 
 #include <atomic>
@@ -12,54 +14,10 @@
 #include <mutex>
 #include <thread>
 #include <utility>
-#include <vector>
 
 namespace gslam {
 inline namespace v1 {
 namespace detail {
-
-/// First in, first out, in one block of memory that grows and is kept.
-template <class Item>
-class Ring {
- public:
-  std::size_t size() const noexcept { return size_; }
-  bool empty() const noexcept { return size_ == 0; }
-
-  void push(Item item) {
-    if (size_ == items_.size()) grow();
-    items_[(first_ + size_) & (items_.size() - 1)] = std::move(item);
-    ++size_;
-  }
-
-  /// Must not be called on an empty one.
-  Item pop() {
-    Item item = std::move(items_[first_]);
-    items_[first_] = Item();  // what it held ends now, not when its place is used again
-    first_ = (first_ + 1) & (items_.size() - 1);
-    --size_;
-    return item;
-  }
-
-  void swap(Ring& other) noexcept {
-    items_.swap(other.items_);
-    std::swap(first_, other.first_);
-    std::swap(size_, other.size_);
-  }
-
- private:
-  void grow() {
-    std::vector<Item> larger(items_.empty() ? 4 : 2 * items_.size());
-    for (std::size_t i = 0; i < size_; ++i) {
-      larger[i] = std::move(items_[(first_ + i) & (items_.size() - 1)]);
-    }
-    items_.swap(larger);
-    first_ = 0;
-  }
-
-  std::vector<Item> items_;  // a power of two of them
-  std::size_t first_ = 0;
-  std::size_t size_ = 0;
-};
 
 /// What became of messages.
 struct QueueCounts {
@@ -104,22 +62,18 @@ class MessageQueue {
 
   /// Waits for the next message; false when the queue was closed and holds no more.
   bool waitPop(Item& item) {
-    spin();
+    lookAround();
     std::unique_lock<std::mutex> lock(mutex_);
-    ++sleepers_;
-    not_empty_.wait(lock, [this] { return !ring_.empty() || is_closed_; });
-    --sleepers_;
+    waitForMessage(lock);
     return take(item, lock);
   }
 
   /// All that waits, in exchange for an empty ring; false when closed and empty. For queues without
   /// bound: what was taken does not count any more.
   bool waitPopAll(Ring<Item>& items) {
-    spin();
+    lookAround();
     std::unique_lock<std::mutex> lock(mutex_);
-    ++sleepers_;
-    not_empty_.wait(lock, [this] { return !ring_.empty() || is_closed_; });
-    --sleepers_;
+    waitForMessage(lock);
     ring_.swap(items);
     size_.store(0, std::memory_order_relaxed);
     return !items.empty();
@@ -154,6 +108,7 @@ class MessageQueue {
     Ring<Item> dropped;  // destroyed without the lock
     const std::lock_guard<std::mutex> lock(mutex_);
     is_closed_ = true;
+    is_closing_.store(true, std::memory_order_relaxed);
     if (pending == Pending::discard) {
       dropped_ += ring_.size();
       ring_.swap(dropped);
@@ -199,6 +154,12 @@ class MessageQueue {
   }
 
   void waitForRoom(std::unique_lock<std::mutex>& lock) {
+    lock.unlock();
+    publishers_wait_.untilThereIs([this] {
+      const std::size_t size = size_.load(std::memory_order_relaxed);
+      return size < capacity_ ? capacity_ - size : 0;
+    });
+    lock.lock();
     ++waiting_publishers_;
     not_full_.wait(lock, [this] { return ring_.size() < capacity_ || is_closed_; });
     --waiting_publishers_;
@@ -214,18 +175,39 @@ class MessageQueue {
     return true;
   }
 
-  void spin() const {
-    if (spin_.count() == 0) return;
+  void waitForMessage(std::unique_lock<std::mutex>& lock) {
+    if (!ring_.empty() || is_closed_) return;
+    const auto begin = std::chrono::steady_clock::now();
+    ++sleepers_;
+    not_empty_.wait(lock, [this] { return !ring_.empty() || is_closed_; });
+    --sleepers_;
+    const auto slept = std::chrono::steady_clock::now() - begin;
+    was_short_ = slept < std::chrono::microseconds(50);
+  }
+
+  // Looks for messages a while before it sleeps, without the lock. In between others have the
+  // processor: the one who is to publish may need it.
+  void lookAround() {
+    const auto waiting = [this] { return size_.load(std::memory_order_relaxed); };
+    if (was_short_) wait_.untilThereIs(waiting);
+    if (spin_.count() == 0 || waiting() > 0) return;
     const auto end = std::chrono::steady_clock::now() + spin_;
-    while (size_.load(std::memory_order_relaxed) == 0 && std::chrono::steady_clock::now() < end) {
+    for (int i = 1; waiting() == 0 && !is_closing_.load(std::memory_order_relaxed); ++i) {
+      if (i % 64 != 0) continue;
+      if (std::chrono::steady_clock::now() > end) return;
+      std::this_thread::yield();
     }
   }
 
   const std::size_t capacity_;
   const Overflow overflow_;
   const std::chrono::microseconds spin_;
-  std::atomic<std::size_t> size_{0};  // of ring_, for spin()
-  mutable std::mutex mutex_;          // guards all below
+  BriefWait wait_{false};                // of a consumer with a thread of its own
+  bool was_short_ = false;               // so was its last sleep: the wait may be better
+  BriefWait publishers_wait_{true};      // for room
+  std::atomic<std::size_t> size_{0};     // of ring_, for lookAround()
+  std::atomic<bool> is_closing_{false};  // is_closed_, for lookAround()
+  mutable std::mutex mutex_;             // guards all below
   std::condition_variable not_empty_;
   std::condition_variable not_full_;
   std::condition_variable idle_;

@@ -46,19 +46,23 @@ inline Messenger Messenger::inNamespace(const std::string& space) const {
   return Messenger(hub_, detail::topicName(space_, space), names_);
 }
 
-inline Messenger Messenger::remapped(const std::map<std::string, std::string>& names) const {
-  Names all = names_ ? *names_ : Names();
-  for (const Names::value_type& one : names) {
-    all[detail::topicName(space_, one.first)] = resolved(one.second);
+template <class Map>
+Messenger Messenger::withNames(const Map& names) const {
+  Names all = names_;
+  for (const auto& one : names) {
+    const detail::OtherName next = {detail::topicName(space_, one.first), resolved(one.second),
+                                    std::move(all)};
+    all = std::make_shared<detail::OtherName>(next);
   }
-  return Messenger(hub_, space_, std::make_shared<const Names>(std::move(all)));
+  return Messenger(hub_, space_, std::move(all));
 }
 
 inline std::string Messenger::resolved(const std::string& topic) const {
   std::string name = detail::topicName(space_, topic);
-  if (!names_) return name;
-  const Names::const_iterator other = names_->find(name);
-  return other != names_->end() ? other->second : name;
+  for (const detail::OtherName* one = names_.get(); one != nullptr; one = one->before.get()) {
+    if (one->from == name) return one->to;
+  }
+  return name;
 }
 
 // --- publishing and subscribing
@@ -168,8 +172,8 @@ inline bool Messenger::hasService(const std::string& service) const {
 
 inline std::vector<TopicInfo> Messenger::topics() const {
   std::vector<TopicInfo> infos;
-  for (const auto& one : hub_->topics()) {
-    const detail::Topic& topic = *one.second;
+  for (const std::shared_ptr<detail::Topic>& one : hub_->topics()) {
+    const detail::Topic& topic = *one;
     TopicInfo info;
     info.name = topic.name();
     info.type = topic.type().name();

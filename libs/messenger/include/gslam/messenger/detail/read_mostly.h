@@ -2,14 +2,14 @@
 #ifndef GSLAM_MESSENGER_DETAIL_READ_MOSTLY_H
 #define GSLAM_MESSENGER_DETAIL_READ_MOSTLY_H
 
+#include <gslam/base/platform.h>
+
 #include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <memory>
 #include <mutex>
 #include <thread>
 #include <utility>
-#include <vector>
 
 namespace gslam {
 inline namespace v1 {
@@ -31,11 +31,26 @@ class ReadMostly {
       return entered.load() == out;
     }
   };
-  using Old = std::vector<std::unique_ptr<const Value>>;
+  // A value and the one before, which readers may still see.
+  struct Version {
+    const Value value;
+    Version* before;
+  };
+  struct Old {
+    Old() = default;
+    ~Old() {
+      while (first != nullptr) {
+        Version* const ended = first;
+        first = ended->before;
+        delete ended;
+      }
+    }
+    Version* first = nullptr;
+  };
 
  public:
-  explicit ReadMostly(Value initial) : value_(new Value(std::move(initial))) {}
-  ~ReadMostly() { delete value_.load(); }
+  explicit ReadMostly(Value initial) : now_(new Version{std::move(initial), nullptr}) {}
+  ~ReadMostly() { delete now_.load(); }
   ReadMostly(const ReadMostly&) = delete;
   ReadMostly& operator=(const ReadMostly&) = delete;
 
@@ -45,7 +60,8 @@ class ReadMostly {
     explicit Reader(ReadMostly& owner) noexcept
         : owner_(owner), phase_(owner.phases_[owner.phase_.load() & 1]) {
       phase_.entered.fetch_add(1);
-      value_ = owner.value_.load();  // after it was counted: what is replaced later stays alive
+      value_ =
+          &owner.now_.load()->value;  // after it was counted: what is replaced later stays alive
     }
     ~Reader() {
       phase_.left.fetch_add(1);
@@ -67,9 +83,10 @@ class ReadMostly {
   void replace(Change change) {
     Old unused;
     const std::lock_guard<std::mutex> lock(mutex_);
-    std::unique_ptr<const Value> next(new Value(change(*value_.load())));
-    old_.emplace_back(nullptr);  // so that nothing fails once the value is replaced
-    old_.back().reset(value_.exchange(next.release()));
+    Version* const next = new Version{change(now_.load()->value), nullptr};
+    Version* const last = now_.exchange(next);
+    last->before = old_.first;
+    old_.first = last;
     has_old_.store(true);
     takeUnused(unused);
   }
@@ -81,7 +98,7 @@ class ReadMostly {
     const std::lock_guard<std::mutex> phase_lock(phase_mutex_);
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      unused.swap(old_);
+      std::swap(unused.first, old_.first);
       has_old_.store(false);
     }
     const std::uint64_t phase = phase_.load();
@@ -93,7 +110,7 @@ class ReadMostly {
   /// A copy; it is not counted as a reading.
   Value copy() const {
     const std::lock_guard<std::mutex> lock(mutex_);  // the present value cannot become an old one
-    return *value_.load();
+    return now_.load()->value;
   }
 
   /// How often it has been read.
@@ -112,7 +129,7 @@ class ReadMostly {
     }
   }
 
-  void dropUnused() {
+  GSLAM_COLD void dropUnused() {
     Old unused;
     const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
     if (lock.owns_lock()) takeUnused(unused);
@@ -121,11 +138,11 @@ class ReadMostly {
   // With nobody inside, whoever comes sees the present value.
   void takeUnused(Old& unused) noexcept {
     if (!phases_[0].isEmpty() || !phases_[1].isEmpty()) return;
-    unused.swap(old_);
+    std::swap(unused.first, old_.first);
     has_old_.store(false);
   }
 
-  std::atomic<const Value*> value_;
+  std::atomic<Version*> now_;
   std::atomic<std::uint64_t> phase_{0};
   Phase phases_[2];
   std::atomic<bool> has_old_{false};

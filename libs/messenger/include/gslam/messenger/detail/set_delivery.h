@@ -5,6 +5,7 @@
 #include <gslam/messenger/detail/error_sink.h>
 #include <gslam/messenger/detail/matcher.h>
 
+#include <array>
 #include <deque>
 #include <mutex>
 #include <string>
@@ -14,15 +15,19 @@ inline namespace v1 {
 namespace detail {
 
 /// Takes messages from any thread, and calls back one set at a time, in order, without a lock.
+template <std::size_t Topics>
 class SetDelivery {
  public:
-  SetDelivery(std::unique_ptr<Matcher> matcher, std::vector<std::string> topics,
-              std::size_t queue_size, std::shared_ptr<ErrorSink> errors)
+  using Set = MessageSet<Topics>;
+  using Result = MatchResult<Topics>;
+  using Names = std::array<std::string, Topics>;
+
+  SetDelivery(std::unique_ptr<Matcher<Topics>> matcher, Names topics, std::size_t queue_size,
+              std::shared_ptr<ErrorSink> errors)
       : topics_(std::move(topics)),
         queue_size_(queue_size),
         errors_(std::move(errors)),
-        matcher_(std::move(matcher)),
-        dropped_(topics_.size(), 0) {}
+        matcher_(std::move(matcher)) {}
   virtual ~SetDelivery() = default;
   SetDelivery(const SetDelivery&) = delete;
   SetDelivery& operator=(const SetDelivery&) = delete;
@@ -30,12 +35,12 @@ class SetDelivery {
   /// One more message; calls back unless another thread, or this one, is about it already: who
   /// calls back goes on until no set is left.
   void receive(std::size_t topic, StampedMessage message) {
-    MatchResult result;  // destroyed without the lock
+    Result result;  // destroyed without the lock
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       if (is_ended_) return;
       matcher_->add(topic, std::move(message), result);
-      for (MessageSet& set : result.sets) ready_.push_back({std::move(set), topic});
+      for (Set& set : result.sets) ready_.push_back({std::move(set), topic});
       while (ready_.size() > queue_size_) dropReady(result);
       count(result);
       if (is_calling_ || ready_.empty()) return;
@@ -46,7 +51,7 @@ class SetDelivery {
 
   /// Drops what waits for partners, and forgets all stamps.
   void reset() {
-    MatchResult result;
+    Result result;
     const std::lock_guard<std::mutex> lock(mutex_);
     matcher_->clear(result);
     count(result);
@@ -54,7 +59,7 @@ class SetDelivery {
 
   /// No callback begins any more.
   void end() {
-    MatchResult result;
+    Result result;
     std::deque<Ready> unused;
     const std::lock_guard<std::mutex> lock(mutex_);
     is_ended_ = true;
@@ -73,11 +78,11 @@ class SetDelivery {
   const std::string& topic(std::size_t topic) const { return topics_[checked(topic)]; }
 
  protected:
-  virtual void call(const MessageSet& set) = 0;
+  virtual void call(const Set& set) = 0;
 
  private:
   struct Ready {
-    MessageSet set;
+    Set set;
     std::size_t completed_by;  // topic
   };
 
@@ -96,28 +101,28 @@ class SetDelivery {
     return true;
   }
 
-  void dropReady(MatchResult& result) {
-    for (std::size_t i = 0; i < topics_.size(); ++i) {
+  void dropReady(Result& result) {
+    for (std::size_t i = 0; i < Topics; ++i) {
       result.dropped.push_back({i, std::move(ready_.front().set[i])});
     }
     ready_.pop_front();
   }
-  void count(const MatchResult& result) {
-    for (const MatchResult::Dropped& one : result.dropped) ++dropped_[one.topic];
+  void count(const Result& result) {
+    for (const typename Result::Dropped& one : result.dropped) ++dropped_[one.topic];
   }
   std::size_t checked(std::size_t topic) const {
-    if (topic < topics_.size()) return topic;
-    throw ArgumentError("topic", "is " + std::to_string(topic) + ", expected less than " +
-                                     std::to_string(topics_.size()));
+    if (topic < Topics) return topic;
+    throw ArgumentError(
+        "topic", "is " + std::to_string(topic) + ", expected less than " + std::to_string(Topics));
   }
 
-  const std::vector<std::string> topics_;
+  const Names topics_;
   const std::size_t queue_size_;
   const std::shared_ptr<ErrorSink> errors_;
   mutable std::mutex mutex_;  // guards all below
-  const std::unique_ptr<Matcher> matcher_;
+  const std::unique_ptr<Matcher<Topics>> matcher_;
   std::deque<Ready> ready_;
-  std::vector<std::uint64_t> dropped_;  // by topic
+  std::array<std::uint64_t, Topics> dropped_ = {{0}};  // by topic
   bool is_calling_ = false;
   bool is_ended_ = false;
 };
@@ -134,26 +139,29 @@ struct MakeIndices<0, Is...> {
 
 /// Calls a function that takes `const Ts&...` or `std::shared_ptr<const Ts>...`.
 template <class F, class... Ts>
-class TypedSetDelivery final : public SetDelivery {
+class TypedSetDelivery final : public SetDelivery<sizeof...(Ts)> {
+  using Base = SetDelivery<sizeof...(Ts)>;
+  using Set = typename Base::Set;
+
  public:
-  TypedSetDelivery(std::unique_ptr<Matcher> matcher, std::vector<std::string> topics,
+  TypedSetDelivery(std::unique_ptr<Matcher<sizeof...(Ts)>> matcher, typename Base::Names topics,
                    std::size_t queue_size, std::shared_ptr<ErrorSink> errors, F callback)
-      : SetDelivery(std::move(matcher), std::move(topics), queue_size, std::move(errors)),
+      : Base(std::move(matcher), std::move(topics), queue_size, std::move(errors)),
         callback_(std::move(callback)) {}
 
  private:
-  void call(const MessageSet& set) override {
+  void call(const Set& set) override {
     call(callback_, set, 0, typename MakeIndices<sizeof...(Ts)>::Type());
   }
   // int is the better match for 0, where the call is possible. A generic lambda, which any call
   // fits, gets references.
   template <class Callback, std::size_t... Is>
-  static auto call(Callback& f, const MessageSet& set, int, Indices<Is...>)
+  static auto call(Callback& f, const Set& set, int, Indices<Is...>)
       -> decltype(f(std::declval<const Ts&>()...), void()) {
     f(*static_cast<const Ts*>(set[Is].get())...);
   }
   template <class Callback, std::size_t... Is>
-  static void call(Callback& f, const MessageSet& set, long, Indices<Is...>) {
+  static void call(Callback& f, const Set& set, long, Indices<Is...>) {
     f(static_cast<const std::shared_ptr<const Ts>&>(
         std::static_pointer_cast<const Ts>(set[Is]))...);
   }

@@ -163,7 +163,7 @@ class QueuedSubscription final
 
   void receive(AnyLetter& letter, const TopicFacts& topic) override {
     const bool was_idle = queue_.push(Payload::take(letter, topic));
-    if (was_idle && pool_ != nullptr) post();
+    if (was_idle && pool_ != nullptr) post(this->shared_from_this());
   }
   void close(Pending pending) override {
     if (pending == Pending::discard) is_discarding_ = true;
@@ -182,7 +182,7 @@ class QueuedSubscription final
 
   void work() {
     const Consuming consuming(&queue_);
-    const Delivering delivering;
+    const Delivering delivering(errors_->thread());
     if (queue_.isBounded()) {
       Item item;
       while (queue_.waitPop(item)) deliver(std::move(item));
@@ -197,15 +197,18 @@ class QueuedSubscription final
     }
   }
 
-  void post() {
-    const std::shared_ptr<QueuedSubscription> self = this->shared_from_this();
-    pool_->post([self] { self->workAWhile(); });
+  // A pool runs all that it was given, so the task needs no pointer that owns: with one it would be
+  // allocated each time.
+  void post(std::shared_ptr<QueuedSubscription> self) {
+    alive_while_posted_ = std::move(self);
+    pool_->post([this] { workAWhile(); });
   }
 
   // Then others have their turn.
   void workAWhile() {
+    std::shared_ptr<QueuedSubscription> self = std::move(alive_while_posted_);
     const Consuming consuming(&queue_);
-    const Delivering delivering;
+    const Delivering delivering(errors_->thread());
     Item item;
     for (int i = 0; i < 32; ++i) {
       if (queue_.tryPop(item)) {
@@ -214,7 +217,7 @@ class QueuedSubscription final
         return;
       }
     }
-    post();
+    post(std::move(self));
   }
 
   void deliver(Item taken) {
@@ -224,6 +227,7 @@ class QueuedSubscription final
 
   MessageQueue<Item> queue_;
   std::shared_ptr<ThreadPool> pool_;
+  std::shared_ptr<QueuedSubscription> alive_while_posted_;  // of whoever is busy, see MessageQueue
   F callback_;
   const std::shared_ptr<ErrorSink> errors_;
   std::atomic<bool> is_discarding_{false};
