@@ -28,9 +28,10 @@ inline namespace v1 {
 /// toolbox' x is down, its y right and its z backwards.
 ///
 /// The polynomial is the model, in both directions: project() solves it by Newton's steps in a
-/// bracket, which always converge. The file's inverse polynomial, a fit that is off by some tenths
-/// of a pixel, is not needed. The camera sees every angle up to the one where rho stops to grow
-/// with the angle, at most maxRadius() = 1000 |a0| pixels from the centre.
+/// bracket, which always converge. The file's inverse polynomial, a fit that is good to some
+/// thousandths of a pixel and to the border of the image only, is not needed. The camera sees every
+/// angle up to the one where rho stops to grow with the angle, at most maxRadius() = 1000 |a0|
+/// pixels from the centre.
 ///
 /// D. Scaramuzza, A. Martinelli, R. Siegwart, "A toolbox for easily calibrating omnidirectional
 /// cameras", IROS 2006.
