@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <string>
 #include <utility>
@@ -16,16 +15,6 @@ namespace {
 using gslam::Camera;
 using gslam::Vec2d;
 using gslam::Vec3d;
-
-#define NEEDS_TEST_DATA()                                       \
-  do {                                                          \
-    if (!calibrations::folder().empty()) break;                 \
-    const char* const ci = std::getenv("CI");                   \
-    if (ci != nullptr && std::string(ci) == "true") {           \
-      FAIL() << "GSLAM_TEST_DATA names no folder, but CI=true"; \
-    }                                                           \
-    GTEST_SKIP() << "GSLAM_TEST_DATA names no folder";          \
-  } while (false)
 
 struct RoundTrip {
   std::size_t seen = 0;
