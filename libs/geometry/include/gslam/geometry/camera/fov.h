@@ -2,6 +2,7 @@
 #define GSLAM_GEOMETRY_CAMERA_FOV_H
 
 #include <gslam/geometry/camera/focal_camera.h>
+#include <gslam/geometry/detail/camera_angle.h>
 
 #include <cmath>
 #include <cstddef>
@@ -37,8 +38,8 @@ class FovProjection {
   explicit FovProjection(const T* parameters) : w_(parameters[0]), k_(2 * std::tan(w_ / 2)) {
     detail::checkParameter(w_ >= 0 && w_ < T(3.14159265358979323846), "w", w_,
                            "0 or more and less than pi");
-    if (w_ < 2 * std::numeric_limits<T>::min())
-      w_ = k_ = T(0);  // k / w must be 1 to the last digit
+    const T e = std::numeric_limits<T>::epsilon();
+    if (w_ < e * e * e * e) w_ = k_ = T(0);  // bends nothing, but k r could underflow
   }
 
   /// w.
@@ -54,7 +55,7 @@ class FovProjection {
     const T squared = r * r + z * z;
     if (!(z > 0) || !detail::isSafeSquare(squared)) return false;
     const bool is_bent = w_ > 0 && r > 0;
-    const T angle = is_bent ? std::atan2(k_ * r, z) : T(0);
+    const T angle = is_bent ? detail::angleFromAxis(k_ * r, z) : T(0);
     const T on_axis = (w_ > 0 ? k_ / w_ : T(1)) / z;  // limit of d / r
     const T scale = is_bent ? angle / (w_ * r) : on_axis;
     m = {{scale * x, scale * y}};

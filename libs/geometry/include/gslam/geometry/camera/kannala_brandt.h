@@ -2,6 +2,7 @@
 #define GSLAM_GEOMETRY_CAMERA_KANNALA_BRANDT_H
 
 #include <gslam/geometry/camera/focal_camera.h>
+#include <gslam/geometry/detail/camera_angle.h>
 #include <gslam/geometry/detail/camera_polynomial.h>
 
 #include <algorithm>
@@ -68,7 +69,7 @@ class KannalaBrandtProjection {
     const T r = std::sqrt(x * x + y * y);
     const T squared = r * r + z * z;
     if (!detail::isSafeSquare(squared)) return false;
-    const T theta = std::atan2(r, z);
+    const T theta = detail::angleFromAxis(r, z);
     if (!(theta < max_angle_)) return false;
     T slope;
     const T scale = r > 0 ? distance(theta, slope) / r : T(1) / z;

@@ -60,27 +60,24 @@ class RadtanDistortion {
   // @return whether the image of the result is `image` within rounding
   bool undistort(const Vec<T, 2>& image, Vec<T, 2>& point) const noexcept {
     Vec<T, 2> target;
-    if (!tilt_.invert(image, target)) return false;
-    const T accepted = 32 * epsilon() * (1 + target.norm());
-    Vec<T, 2> p = inside(target);
-    Vec<T, 2> reached;
-    Mat<T, 2, 2> j;
-    if (!distortFlat(p, reached, &j, nullptr)) return false;
-    // A polynomial of degree 7 falls too slowly under Newton's steps from far outside.
-    for (int i = 0; i < 60 && !(reached.squaredNorm() <= 4 * target.squaredNorm()); ++i) {
-      p *= T(0.5);
-      if (!distortFlat(p, reached, &j, nullptr)) return false;
-    }
-    Vec<T, 2> miss = reached - target;
+    State s;
+    if (!tilt_.invert(image, target) || !start(target, s)) return false;
+    const T unit = 1 + target.norm();
+    const T accepted = 32 * epsilon() * unit;
+    const T near = std::sqrt(epsilon()) / 8 * unit;  // one more step leaves rounding only
     for (int i = 0; i < 100; ++i) {
-      const T determinant = j(0, 0) * j(1, 1) - j(0, 1) * j(1, 0);
-      const Vec<T, 2> step = {{(j(1, 1) * miss[0] - j(0, 1) * miss[1]) / determinant,
-                               (j(0, 0) * miss[1] - j(1, 0) * miss[0]) / determinant}};
+      const Mat<T, 2, 2>& j = s.slope;
+      const T inverse = 1 / (j(0, 0) * j(1, 1) - j(0, 1) * j(1, 0));
+      const Vec<T, 2> step = {{(j(1, 1) * s.miss[0] - j(0, 1) * s.miss[1]) * inverse,
+                               (j(0, 0) * s.miss[1] - j(1, 0) * s.miss[0]) * inverse}};
       if (!isFinite(step)) return false;
-      const bool is_near = miss.squaredNorm() <= accepted * accepted;
-      if (!improve(target, step, is_near, p, miss, j)) {
-        point = p;
-        return is_near;
+      if (s.miss.squaredNorm() <= near * near && isAt(target, s.point - step, accepted)) {
+        point = s.point - step;
+        return true;
+      }
+      if (!improve(target, step, s)) {
+        point = s.point;
+        return s.miss.squaredNorm() <= accepted * accepted;
       }
     }
     return false;
@@ -103,31 +100,50 @@ class RadtanDistortion {
   // Coefficient i, or 0 where the model has no such one.
   T at(std::size_t i) const noexcept { return i < N ? c_[i < N ? i : 0] : T(0); }
 
-  // Moves p by `step` or by the largest half, quarter ... of it that lowers the miss. Next to the
-  // solution, where only rounding is left, the whole step is the only one that is tried.
-  bool improve(const Vec<T, 2>& target, const Vec<T, 2>& step, bool is_near, Vec<T, 2>& p,
-               Vec<T, 2>& miss, Mat<T, 2, 2>& j) const noexcept {
-    for (T factor = 1; factor > T(1e-5); factor /= 2) {
-      const Vec<T, 2> candidate = p - factor * step;
-      Vec<T, 2> reached;
-      Mat<T, 2, 2> slope;
-      if (distortFlat(candidate, reached, &slope, nullptr)) {
-        const Vec<T, 2> left = reached - target;
-        if (left.squaredNorm() < miss.squaredNorm()) {
-          p = candidate;
-          miss = left;
-          j = slope;
-          return true;
-        }
-      }
-      if (is_near) return false;
+  struct State {
+    Vec<T, 2> point;
+    Vec<T, 2> miss;  // from the target to its image
+    Mat<T, 2, 2> slope;
+  };
+
+  // @return false where the point is outside of the disc
+  bool look(const Vec<T, 2>& target, const Vec<T, 2>& point, State& s) const noexcept {
+    Vec<T, 2> reached;
+    if (!distortFlat(point, reached, &s.slope, nullptr)) return false;
+    s.point = point;
+    s.miss = reached - target;
+    return true;
+  }
+
+  // The target itself, or a point on the way to it: from far outside, a polynomial of degree 7
+  // falls too slowly under Newton's steps.
+  bool start(const Vec<T, 2>& target, State& s) const noexcept {
+    const T r = target.norm();
+    Vec<T, 2> p = r < limit_ ? target : target * (T(0.9) * limit_ / r);
+    for (int i = 0; i < 60; ++i) {
+      if (!look(target, p, s)) return false;
+      if (s.miss.squaredNorm() <= 9 * r * r) return true;
+      p *= T(0.5);
     }
     return false;
   }
 
-  Vec<T, 2> inside(const Vec<T, 2>& v) const noexcept {
-    const T r = v.norm();
-    return r < limit_ ? v : v * (T(0.9) * limit_ / r);
+  bool isAt(const Vec<T, 2>& target, const Vec<T, 2>& point, T accepted) const noexcept {
+    Vec<T, 2> reached;
+    return distortFlat(point, reached, nullptr, nullptr) &&
+           (reached - target).squaredNorm() <= accepted * accepted;
+  }
+
+  // Moves by `step` or by the largest half, quarter ... of it that lowers the miss.
+  bool improve(const Vec<T, 2>& target, const Vec<T, 2>& step, State& s) const noexcept {
+    for (T factor = 1; factor > T(1e-5); factor /= 2) {
+      State candidate;
+      if (!look(target, s.point - factor * step, candidate)) continue;
+      if (!(candidate.miss.squaredNorm() < s.miss.squaredNorm())) continue;
+      s = candidate;
+      return true;
+    }
+    return false;
   }
 
   bool distortFlat(const Vec<T, 2>& point, Vec<T, 2>& image, Mat<T, 2, 2>* by_point,
