@@ -26,8 +26,6 @@ using Radtan5 = gslam::RadtanCamera<T, 5>;
 template <class T>
 using Radtan8 = gslam::RadtanCamera<T, 8>;
 template <class T>
-using Radtan12 = gslam::RadtanCamera<T, 12>;
-template <class T>
 using Radtan14 = gslam::RadtanCamera<T, 14>;
 
 struct Pinhole : Kind<gslam::PinholeCamera> {
@@ -54,13 +52,6 @@ struct RationalRadtan : Kind<Radtan8> {
     return {380, 385, 322.5, 239.1, 0.9, 0.21, 0.0011, -0.0007, 0.012, 1.21, 0.42, 0.041};
   }
 };
-struct PrismRadtan : Kind<Radtan12> {
-  static constexpr int kWidth = 640, kHeight = 480;
-  static std::vector<double> values() {
-    return {380,   385,  322.5, 239.1, 0.9,    0.21,    0.0011,  -0.0007,
-            0.012, 1.21, 0.42,  0.041, 0.0012, -0.0004, -0.0021, 0.0003};
-  }
-};
 struct TiltedRadtan : Kind<Radtan14> {
   static constexpr int kWidth = 640, kHeight = 480;
   static std::vector<double> values() {
@@ -74,12 +65,6 @@ struct TumviKannalaBrandt : Kind<gslam::KannalaBrandtCamera> {
     return {190.97847715128717,     190.9733070521226,     254.93170605935475,
             256.8974428996504,      0.0034823894022493434, 0.0007150348452162257,
             -0.0020532361418706202, 0.00020293673591811182};
-  }
-};
-struct SvoFov : Kind<gslam::FovCamera> {
-  static constexpr int kWidth = 640, kHeight = 480;
-  static std::vector<double> values() {
-    return {1.06326 * 640, 1.41474 * 480, 0.488711 * 640 - 0.5, 0.478752 * 480 - 0.5, 0.171631};
   }
 };
 struct WideFov : Kind<gslam::FovCamera> {
@@ -100,10 +85,6 @@ struct TumviDoubleSphere : Kind<gslam::DoubleSphereCamera> {
             256.8894394501779,  -0.17213086034353243, 0.5931177593944744};
   }
 };
-struct NarrowDoubleSphere : Kind<gslam::DoubleSphereCamera> {
-  static constexpr int kWidth = 512, kHeight = 512;
-  static std::vector<double> values() { return {300, 310, 256, 250, 0.35, 0.31}; }
-};
 struct EurocEucm : Kind<gslam::EucmCamera> {
   static constexpr int kWidth = 752, kHeight = 480;
   static std::vector<double> values() {
@@ -121,12 +102,6 @@ struct CatadioptricMei : Kind<gslam::MeiCamera> {
     return {1430, 1433, 638, 481, 1.31, -0.12, 0.31, 0.0004, -0.0011};
   }
 };
-struct FlatMei : Kind<gslam::MeiCamera> {
-  static constexpr int kWidth = 752, kHeight = 480;
-  static std::vector<double> values() {
-    return {700, 702, 370, 245, 0.81, -0.19, 0.14, 0.0004, -0.0011};
-  }
-};
 struct Panorama : Kind<gslam::EquirectangularCamera> {
   static constexpr int kWidth = 1920, kHeight = 960;
   static std::vector<double> values() {
@@ -138,10 +113,9 @@ struct OrthographicFisheye : Kind<gslam::OrthographicCamera> {
   static std::vector<double> values() { return {410, 405, 321, 241}; }
 };
 
-using All = testing::Types<Pinhole, EurocRadtan, Freiburg1Radtan, RationalRadtan, PrismRadtan,
-                           TiltedRadtan, TumviKannalaBrandt, SvoFov, WideFov, ToolboxOcam,
-                           TumviDoubleSphere, NarrowDoubleSphere, EurocEucm, WideUcm,
-                           CatadioptricMei, FlatMei, Panorama, OrthographicFisheye>;
+using All = testing::Types<Pinhole, EurocRadtan, Freiburg1Radtan, RationalRadtan, TiltedRadtan,
+                           TumviKannalaBrandt, WideFov, ToolboxOcam, TumviDoubleSphere, EurocEucm,
+                           WideUcm, CatadioptricMei, Panorama, OrthographicFisheye>;
 
 template <class Camera>
 Camera make(const std::vector<double>& values) {
