@@ -56,9 +56,9 @@ TEST(RealRectification, OfEuroc) {
   EXPECT_NEAR(r.baseline, 47.90639384423901 / 435.2046959714599, 1e-5);
 
   // Points of the scene, by way of the distorted images of both cameras.
-  for (double z = 0.5; z < 10; z *= 1.3) {
-    for (double x = -0.5; x < 0.5; x += 0.11) {
-      for (double y = -0.3; y < 0.3; y += 0.07) {
+  for (const double z : {0.5, 0.8, 1.7, 3.1, 10.0}) {
+    for (const double x : {-0.5, -0.31, -0.1, 0.0, 0.12, 0.27, 0.48}) {
+      for (const double y : {-0.3, -0.17, 0.0, 0.11, 0.29}) {
         const Vec3d in_left = {x * z, y * z, z};
         const Vec3d in_right = R_left_right.inverse() * (in_left - t_left_right);
         Vec2d pixel, u_left, u_right;

@@ -6,13 +6,14 @@
 #include <limits>
 #include <vector>
 
+#include "camera_steps.h"
+
 namespace {
 
 using gslam::DoubleSphereCamera;
 using gslam::KannalaBrandtCamera;
 using gslam::OcamCamera;
 using gslam::RadtanCamera;
-using gslam::Vec;
 using gslam::Vec2d;
 using gslam::Vec3d;
 
@@ -58,8 +59,8 @@ TEST(CameraLimit, DistortionIsOneToOneInsideItsLimit) {
     const Radtan4 camera({100, 100, 0, 0, k[0], k[1], k[2], k[3]});
     const double limit = std::min(camera.projection().maxRadius(), 3.0);
     ASSERT_GT(limit, 0.3);
-    for (double r = 0.02; r < limit; r += 0.02) {
-      for (double phi = 0; phi < 6.3; phi += 0.2) {
+    for (const double r : steps(0.02, limit, 0.02)) {
+      for (const double phi : steps(0, 6.3, 0.2)) {
         const Vec2d point = {r * std::cos(phi), r * std::sin(phi)};
         Vec2d pixel;
         Vec3d bearing;
@@ -147,14 +148,14 @@ TEST(CameraLimit, PolynomialOfTheToolboxAgainstItsInverse) {
                                        -963.324864,  -2189.874282, -3125.470126, -2753.680698,
                                        -1427.890554, -398.461428,  -46.187761};
   double largest = 0;
-  for (double theta = 0.01; theta < 1.51; theta += 0.01) {
+  for (const double theta : steps(0.01, 1.51, 0.01)) {
     const double elevation = theta - 1.57079632679489661923;  // from the toolbox' plane z = 0
     double rho = 0, power = 1;
     for (const double b : inverse) {
       rho += b * power;
       power *= elevation;
     }
-    for (double phi = 0; phi < 6.2; phi += 0.5) {
+    for (const double phi : steps(0, 6.2, 0.5)) {
       const double right = std::cos(phi), down = std::sin(phi);
       const Vec2d expected = {0.000113 * rho * down + rho * right + 326.939156,
                               1.001968 * rho * down + 0.001400 * rho * right + 261.744395};

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "camera_steps.h"
+
 namespace {
 
 using gslam::Camera;
@@ -18,8 +20,8 @@ Camera make(const char* model, const std::vector<double>& values) {
 // Both see the same points at the same pixels, and have the same bearings.
 void expectSame(const Camera& a, const Camera& b, double max_angle, double tolerance = 1e-10) {
   int seen = 0;
-  for (double theta = 0; theta < 3.14; theta += 0.07) {
-    for (double phi = -3; phi < 3; phi += 0.43) {
+  for (const double theta : steps(0, 3.14, 0.07)) {
+    for (const double phi : steps(-3, 3, 0.43)) {
       const Vec3d point = {3 * std::sin(theta) * std::cos(phi), 3 * std::sin(theta) * std::sin(phi),
                            3 * std::cos(theta)};
       Vec2d p, q;
