@@ -1,6 +1,6 @@
-// Batches of 1024 elements in every SIMD variant of the machine, from arrays of structures (aos) and
-// structures of arrays (soa), beside the loop over the functions of the classes that somebody would
-// write: items are elements.
+// Batches of 1024 elements in every SIMD variant of the machine, from arrays of structures (aos)
+// and structures of arrays (soa), beside the loop over the functions of the classes that somebody
+// would write: items are elements.
 #include <benchmark/benchmark.h>
 #include <gslam/geometry/batch.h>
 

@@ -14,41 +14,42 @@
 #include <type_traits>
 
 /// @file
-/// Rotations, poses, similarities and points by the thousand: what SO3, SE3 and SIM3 do with one, for
-/// all elements of arrays, by the best SIMD variant of the machine (see gslam/base/simd.h).
+/// Rotations, poses, similarities and points by the thousand: what SO3, SE3 and SIM3 do with one,
+/// for all elements of arrays, by the best SIMD variant of the machine (see gslam/base/simd.h).
 ///
 ///     transformPoints(T_world_camera, points, points);         // one transform, in place
 ///     composeMany<SE3d>(T_world_body, T_body_camera, poses);   // N products
 ///     expMany<SE3d>(tangents, poses);
 ///
 /// Elements stand in arrays of structures, `Span<const Vec3d>`, or in structures of arrays,
-/// `Arrays<const double, 3>`, which is the faster one of the two. Any number of them, at any address
-/// that is right for T; none is fine.
+/// `Arrays<const double, 3>`, which is the faster one of the two. Any number of them, at any
+/// address that is right for T; none is fine.
 ///
-/// Results are those of the classes up to rounding: the bounds that SO3 and SE3 state hold here, too,
-/// and the two differ by a few epsilon. They are the same bits in every place of an array, in place or
-/// not, and from rows or arrays, on one machine with one variant. exp and log of SIM3 go through its
-/// class one by one.
+/// Results are those of the classes up to rounding: the bounds that SO3 and SE3 state hold here,
+/// too, and the two differ by a few epsilon. They are the same bits in every place of an array, in
+/// place or not, and from rows or arrays, on one machine with one variant. exp and log of SIM3 go
+/// through its class one by one.
 ///
 /// In place: an output may be an input of the call. They must not overlap in any other way.
 ///
-/// Errors: ArgumentError where sizes differ, before anything is written. expMany throws one, too, for
-/// an element that the class' exp refuses, and names the first; what was written before stays. All
-/// other functions hand on what is not finite as IEEE says.
+/// Errors: ArgumentError where sizes differ, before anything is written. expMany throws one, too,
+/// for an element that the class' exp refuses, and names the first; what was written before stays.
+/// All other functions hand on what is not finite as IEEE says.
 ///
 /// Thread-safety: functions of their arguments; threads may work on parts of the same arrays.
 
 namespace gslam {
 inline namespace v1 {
 
-/// K arrays that somebody else owns, of the same length: number k of element i is `component(k)[i]`.
+/// K arrays that somebody else owns, of the same length: number k of element i is
+/// `component(k)[i]`.
 ///
 /// The components stand in the order in which they stand in the element itself: x y z of points and
-/// rotation vectors, x y z w of rotations (unit quaternions; this is not checked), tx ty tz qx qy qz
-/// qw of SE3, these and the scale of SIM3, (translation, rotation[, log scale]) of tangents.
+/// rotation vectors, x y z w of rotations (unit quaternions; this is not checked), tx ty tz qx qy
+/// qz qw of SE3, these and the scale of SIM3, (translation, rotation[, log scale]) of tangents.
 ///
-/// `Arrays<T, K>` converts to `Arrays<const T, K>`. Cheap to copy; safe to share as far as the elements
-/// are.
+/// `Arrays<T, K>` converts to `Arrays<const T, K>`. Cheap to copy; safe to share as far as the
+/// elements are.
 template <class T, std::size_t K>
 class Arrays {
  public:
@@ -85,14 +86,13 @@ class Arrays {
   std::size_t size_;
 };
 
-/// Elements of type E as arrays: `ArraysOf<SE3d>` is `Arrays<double, 7>`, `ArraysOf<const Vec3d>` is
-/// `Arrays<const double, 3>`.
+/// Elements of type E as arrays: `ArraysOf<SE3d>` is `Arrays<double, 7>`, `ArraysOf<const Vec3d>`
+/// is `Arrays<const double, 3>`.
 template <class E>
-using ArraysOf =
-    Arrays<typename std::conditional<std::is_const<E>::value,
-                                     const typename detail::ElementFacts<E>::Scalar,
-                                     typename detail::ElementFacts<E>::Scalar>::type,
-           detail::ElementFacts<E>::kNumbers>;
+using ArraysOf = Arrays<typename std::conditional<std::is_const<E>::value,
+                                                  const typename detail::ElementFacts<E>::Scalar,
+                                                  typename detail::ElementFacts<E>::Scalar>::type,
+                        detail::ElementFacts<E>::kNumbers>;
 
 namespace detail {
 
@@ -130,8 +130,9 @@ void runBinary(const Op& op, const char* a_and_b, const char* a_and_out, const A
   checkSameSize(a_and_out, a.size(), out.size());
   const auto view_a = viewOf(a);
   const auto view_b = viewOf(b);
-  runBatch(op, Both<typename std::remove_const<decltype(view_a)>::type,
-                    typename std::remove_const<decltype(view_b)>::type>{view_a, view_b},
+  runBatch(op,
+           Both<typename std::remove_const<decltype(view_a)>::type,
+                typename std::remove_const<decltype(view_b)>::type>{view_a, view_b},
            viewOf(out), a.size());
 }
 
@@ -215,7 +216,8 @@ void inverseMany(ArraysOf<const G> in, ArraysOf<G> out) {
 /// @tparam G        SO3, SE3 or SIM3, to be named
 /// @param tangents  as those of G
 /// @param out       the transforms
-/// @throws ArgumentError when the sizes differ, and where G::exp throws; it names the first such element
+/// @throws ArgumentError when the sizes differ, and where G::exp throws; it names the first such
+/// element
 template <class G>
 void expMany(Span<const typename G::Tangent> tangents, Span<G> out) {
   detail::runUnary(detail::Exp<G>(), "tangents and out", tangents, out);

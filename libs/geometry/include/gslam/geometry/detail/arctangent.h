@@ -29,8 +29,8 @@ inline auto arctangentTable(float) noexcept -> const float (&)[3][2] {
       {-0.00310535752f, 0.282365322f}, {-0.189529672f, 1.16853595f}, {-0.333332986f, 1.0f}};
   return coefficients;
 }
-/// (p, q). The function that they make is analytic but for x <= -1, far from the interval: no branch,
-/// and exact at small x.
+/// (p, q). The function that they make is analytic but for x <= -1, far from the interval: no
+/// branch, and exact at small x.
 template <class T>
 Pair<T> arctangentQuotient(T x) noexcept {
   return polynomials(arctangentTable(x), x);

@@ -35,10 +35,9 @@ struct ElementFacts<const E> : ElementFacts<E> {};
 
 template <class E>
 struct IsRow
-    : std::integral_constant<bool, sizeof(E) == ElementFacts<E>::kNumbers *
-                                                    sizeof(typename ElementFacts<E>::Scalar) &&
-                                       std::is_trivially_copyable<E>::value &&
-                                       std::is_standard_layout<E>::value> {};
+    : std::integral_constant<
+          bool, sizeof(E) == ElementFacts<E>::kNumbers * sizeof(typename ElementFacts<E>::Scalar) &&
+                    std::is_trivially_copyable<E>::value && std::is_standard_layout<E>::value> {};
 
 /// The element with these numbers, which came out of one.
 template <class E>
@@ -106,9 +105,7 @@ struct Room<Rows<T, K>, W> {
   Scalar numbers[W * K];
 
   Rows<T, K> view() noexcept { return {numbers}; }
-  void put(std::size_t i, const Scalar* from) noexcept {
-    Rows<Scalar, K>{numbers}.set(i, from);
-  }
+  void put(std::size_t i, const Scalar* from) noexcept { Rows<Scalar, K>{numbers}.set(i, from); }
 };
 
 template <class T, std::size_t K, std::size_t W>

@@ -14,8 +14,8 @@
 #include <type_traits>
 
 /// @file
-/// What a batch may do to its elements, and by the functions of the classes what batch_formulas.h has
-/// no formula for.
+/// What a batch may do to its elements, and by the functions of the classes what batch_formulas.h
+/// has no formula for.
 
 namespace gslam {
 inline namespace v1 {
@@ -56,9 +56,7 @@ struct Log : Operation<G, typename G::Tangent> {
   using T = typename G::Scalar;
   static constexpr bool kHasFormula = !std::is_same<G, SIM3<T>>::value;
 
-  static void one(const T* x, T* y, std::size_t) noexcept {
-    putNumbers(elementOf<G>(x).log(), y);
-  }
+  static void one(const T* x, T* y, std::size_t) noexcept { putNumbers(elementOf<G>(x).log(), y); }
 };
 
 template <class G>

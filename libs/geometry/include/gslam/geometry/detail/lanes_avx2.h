@@ -9,7 +9,7 @@
 #include <immintrin.h>
 
 /// @file
-/// What the formulas of batch_formulas.h need to know of AVX2: 4 doubles or 8 floats at once.
+/// What batches need to know of AVX2: 4 doubles or 8 floats at once.
 ///
 /// Beside arithmetic these are transposes between elements in memory, each of 3 or 4 or more
 /// numbers, and one register for each number. Registers are seen as two pieces of 128 bits.
@@ -23,12 +23,19 @@ GSLAM_TARGET_AVX2
 template <class T>
 struct Registers;
 
+// g++ would rather load once more for each use than keep a register.
+template <class Register>
+Register kept(Register r) noexcept {
+  asm("" : "+x"(r));
+  return r;
+}
+
 template <>
 struct Registers<double> {
   using Register = __m256d;
   static constexpr std::size_t kWidth = 4;
 
-  static Register load(const double* from) noexcept { return _mm256_loadu_pd(from); }
+  static Register load(const double* from) noexcept { return kept(_mm256_loadu_pd(from)); }
   static void store(double* to, Register r) noexcept { _mm256_storeu_pd(to, r); }
   static Register all(double value) noexcept { return _mm256_set1_pd(value); }
   static Register multiplyAdd(Register a, Register x, Register b) noexcept {
@@ -93,7 +100,7 @@ struct Registers<float> {
   using Register = __m256;
   static constexpr std::size_t kWidth = 8;
 
-  static Register load(const float* from) noexcept { return _mm256_loadu_ps(from); }
+  static Register load(const float* from) noexcept { return kept(_mm256_loadu_ps(from)); }
   static void store(float* to, Register r) noexcept { _mm256_storeu_ps(to, r); }
   static Register all(float value) noexcept { return _mm256_set1_ps(value); }
   static Register multiplyAdd(Register a, Register x, Register b) noexcept {

@@ -9,7 +9,7 @@
 #include <arm_neon.h>
 
 /// @file
-/// What the formulas of batch_formulas.h need to know of NEON: 2 doubles or 4 floats at once.
+/// What batches need to know of NEON: 2 doubles or 4 floats at once.
 
 namespace gslam {
 inline namespace v1 {

@@ -7,7 +7,7 @@
 #include <cstddef>
 
 /// @file
-/// What the formulas of batch_formulas.h need to know of plain C++: one number at once.
+/// What batches need to know of plain C++: one number at once.
 
 namespace gslam {
 inline namespace v1 {

@@ -58,8 +58,8 @@ Pair<T> stumpff10(T h) noexcept {
   return polynomials(stumpff10Table(h), h);
 }
 
-/// Coefficients of c3 for 0 <= x <= 10, to 9e-17 of its value at 0, those of the even and of the odd
-/// powers.
+/// Coefficients of c3 for 0 <= x <= 10, to 9e-17 of its value at 0, those of the even and of the
+/// odd powers.
 inline auto stumpff3Table(double) noexcept -> const double (&)[5][2] {
   static constexpr double even_odd[][2] = {{8.189835826603783e-18, -1.790628581579503e-20},
                                            {7.647145584959563e-13, -2.8111480432339206e-15},
