@@ -7,6 +7,7 @@
 #include <gslam/geometry/batch.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <limits>
@@ -76,9 +77,15 @@ std::vector<E> someElements(std::size_t n, unsigned seed) {
   return elements;
 }
 
+// Of numbers that are not NaN.
 template <class E>
 bool sameBits(const E& a, const E& b) {
-  return std::memcmp(&a, &b, sizeof(E)) == 0;
+  for (std::size_t k = 0; k < gslam::detail::ElementFacts<E>::kNumbers; ++k) {
+    const auto x = a.data()[k];
+    const auto y = b.data()[k];
+    if (!(x == y) || std::signbit(x) != std::signbit(y)) return false;
+  }
+  return true;
 }
 
 // Elements in columns, one of which begins at an odd address (as numbers go).

@@ -257,10 +257,10 @@ struct Formula<ActOnAll<T>> : FormulaBase<ActOnAll<T>> {
     multiplyAdd(p.x, a0, multiplyAdd(p.y, a1, multiplyAdd(p.z, a2, t))).put(y);
   }
 
- private:
   static Lanes3<L> broadcast(const Vec<T, 3>& v) noexcept {
     return {L::all(v[0]), L::all(v[1]), L::all(v[2])};
   }
+
   Lanes3<L> a0, a1, a2, t;
 };
 
