@@ -28,9 +28,9 @@ constexpr T nearSquare() noexcept {
   return T(10);
 }
 
-/// (c1, c0) for 0 <= h <= 2.5, to 4e-17: sine and cosine of half an angle below sqrt(10), where h
-/// is the square of the half angle.
-inline Pair<double> stumpff10(double h) noexcept {
+/// Coefficients of (c1, c0) for 0 <= h <= 2.5, to 4e-17, highest power first. (The argument of the
+/// tables only says for which type; batch_formulas.h reads them, too.)
+inline auto stumpff10Table(double) noexcept -> const double (&)[9][2] {
   static constexpr double coefficients[][2] = {{2.730402537561207e-15, 4.625701609891324e-14},
                                                {-7.643886158204389e-13, -1.146453049361302e-11},
                                                {1.605897465969838e-10, 2.0876625841954573e-09},
@@ -40,35 +40,46 @@ inline Pair<double> stumpff10(double h) noexcept {
                                                {0.008333333333333314, 0.041666666666666304},
                                                {-0.16666666666666666, -0.5},
                                                {1.0, 1.0}};
-  return polynomials(coefficients, h);
+  return coefficients;
 }
-/// The same to 1.2e-8.
-inline Pair<float> stumpff10(float h) noexcept {
+/// The same for float, to 1.2e-8.
+inline auto stumpff10Table(float) noexcept -> const float (&)[6][2] {
   static constexpr float coefficients[][2] = {{-2.40675959e-08f, -2.62812421e-07f},
                                               {2.75359162e-06f, 2.47738717e-05f},
                                               {-0.000198410795f, -0.00138886424f},
                                               {0.00833333284f, 0.0416666605f},
                                               {-0.166666672f, -0.5f},
                                               {1.0f, 1.0f}};
-  return polynomials(coefficients, h);
+  return coefficients;
+}
+/// (c1, c0): sine and cosine of half an angle below sqrt(10), where h is the square of the half
+/// angle.
+template <class T>
+Pair<T> stumpff10(T h) noexcept {
+  return polynomials(stumpff10Table(h), h);
 }
 
-/// c3 for 0 <= x <= 10, to 9e-17 of its value at 0. The even and the odd powers are the pair.
-inline double stumpff3(double x) noexcept {
+/// Coefficients of c3 for 0 <= x <= 10, to 9e-17 of its value at 0, those of the even and of the
+/// odd powers.
+inline auto stumpff3Table(double) noexcept -> const double (&)[5][2] {
   static constexpr double even_odd[][2] = {{8.189835826603783e-18, -1.790628581579503e-20},
                                            {7.647145584959563e-13, -2.8111480432339206e-15},
                                            {2.505210837327857e-08, -1.6059043210264797e-10},
                                            {0.00019841269841269397, -2.7557319223867537e-06},
                                            {0.16666666666666666, -0.008333333333333333}};
-  const Pair<double> sum = polynomials(even_odd, x * x);
-  return sum.first() + x * sum.second();
+  return even_odd;
 }
-/// The same to 6e-8.
-inline float stumpff3(float x) noexcept {
+/// The same for float, to 6e-8.
+inline auto stumpff3Table(float) noexcept -> const float (&)[3][2] {
   static constexpr float even_odd[][2] = {{2.48974441e-08f, -1.42570997e-10f},
                                           {0.000198412017f, -2.75518437e-06f},
                                           {0.166666672f, -0.00833333284f}};
-  const Pair<float> sum = polynomials(even_odd, x * x);
+  return even_odd;
+}
+/// c3.
+template <class T>
+T stumpff3(T x) noexcept {
+  const Pair<T> sum = polynomials(stumpff3Table(x), x * x);
   return sum.first() + x * sum.second();
 }
 
@@ -86,7 +97,7 @@ inline Pair<double> stumpff54(double x) noexcept {
                                                {0.008333333333333333, 0.041666666666666664}};
   return polynomials(coefficients, x);
 }
-/// The same to 6e-8.
+/// The same for float, to 6e-8.
 inline Pair<float> stumpff54(float x) noexcept {
   static constexpr float coefficients[][2] = {
       {-6.9766507e-13f, -1.03371391e-11f}, {1.60012628e-10f, 2.07792472e-09f},
