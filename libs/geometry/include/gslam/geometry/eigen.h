@@ -23,10 +23,9 @@
 namespace gslam {
 inline namespace v1 {
 
-/// @name Views
+/// @{
 /// The elements themselves, without a copy.
 /// @param x  what is viewed; not a temporary
-/// @{
 template <class T, std::size_t N>
 Eigen::Map<Eigen::Matrix<T, static_cast<int>(N), 1>> viewAsEigen(Vec<T, N>& x) noexcept {
   return Eigen::Map<Eigen::Matrix<T, static_cast<int>(N), 1>>(x.data());
@@ -37,7 +36,7 @@ Eigen::Map<const Eigen::Matrix<T, static_cast<int>(N), 1>> viewAsEigen(
   return Eigen::Map<const Eigen::Matrix<T, static_cast<int>(N), 1>>(x.data());
 }
 template <class T, std::size_t N>
-void viewAsEigen(const Vec<T, N>&&) = delete;
+void viewAsEigen(const Vec<T, N>&& x) = delete;
 /// @}
 
 namespace detail {
@@ -61,8 +60,8 @@ struct FromEigen<T, R, 1> {
 
 }  // namespace detail
 
-/// @name Views
 /// @{
+/// The elements themselves, without a copy.
 template <class T, std::size_t R, std::size_t C>
 Eigen::Map<detail::EigenRows<T, R, C>> viewAsEigen(Mat<T, R, C>& x) noexcept {
   return Eigen::Map<detail::EigenRows<T, R, C>>(x.data());
@@ -72,20 +71,20 @@ Eigen::Map<const detail::EigenRows<T, R, C>> viewAsEigen(const Mat<T, R, C>& x) 
   return Eigen::Map<const detail::EigenRows<T, R, C>>(x.data());
 }
 template <class T, std::size_t R, std::size_t C>
-void viewAsEigen(const Mat<T, R, C>&&) = delete;
+void viewAsEigen(const Mat<T, R, C>&& x) = delete;
 /// Both have x y z w. It cannot be written to: that would pass the checks.
 template <class T>
 Eigen::Map<const Eigen::Quaternion<T>> viewAsEigen(const SO3<T>& x) noexcept {
   return Eigen::Map<const Eigen::Quaternion<T>>(x.data());
 }
 template <class T>
-void viewAsEigen(const SO3<T>&&) = delete;
+void viewAsEigen(const SO3<T>&& x) = delete;
 /// @}
 
-/// @name Copies to Eigen
-/// Matrices become what Eigen has by default, column by column; similarities an affine transform.
-/// @param x  what is copied
 /// @{
+/// A copy. Matrices become what Eigen has by default, column by column; similarities an affine
+/// transform.
+/// @param x  what is copied
 template <class T, std::size_t N>
 Eigen::Matrix<T, static_cast<int>(N), 1> toEigen(const Vec<T, N>& x) {
   return viewAsEigen(x);
@@ -116,13 +115,11 @@ Eigen::Transform<T, 3, Eigen::Affine> toEigen(const SIM3<T>& x) {
 }
 /// @}
 
-/// @name Copies from Eigen
-/// Columns become Vec, other matrices Mat; their size must be known when compiling.
+/// @{
+/// A copy. Columns become Vec, other matrices Mat; their size must be known when compiling.
 /// @param x  what is copied
 /// @throws ArgumentError what is no rotation, pose or similarity is refused as by the functions
-/// from
-///   quaternions and matrices
-/// @{
+///   from quaternions and matrices
 template <class Derived>
 typename detail::FromEigen<typename Derived::Scalar, Derived::RowsAtCompileTime,
                            Derived::ColsAtCompileTime>::Type

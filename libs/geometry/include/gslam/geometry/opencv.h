@@ -23,9 +23,9 @@
 namespace gslam {
 inline namespace v1 {
 
-/// @name Copies to OpenCV
-/// @param x  what is copied
 /// @{
+/// A copy for OpenCV.
+/// @param x  what is copied
 template <class T, std::size_t N>
 cv::Vec<T, static_cast<int>(N)> toOpenCv(const Vec<T, N>& x) {
   return cv::Vec<T, static_cast<int>(N)>(x.values);
@@ -50,10 +50,10 @@ cv::Vec<T, 3> toRodrigues(const SO3<T>& x) {
 }
 /// @}
 
-/// @name Copies from OpenCV
+/// @{
+/// A copy.
 /// @param x  what is copied
 /// @throws ArgumentError what is no rotation or pose is refused as by the functions from matrices
-/// @{
 template <class T, int N>
 Vec<T, static_cast<std::size_t>(N)> fromOpenCv(const cv::Vec<T, N>& x) {
   Vec<T, static_cast<std::size_t>(N)> result;

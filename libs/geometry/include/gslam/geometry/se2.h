@@ -52,7 +52,7 @@ class SE2 {
   SE2() noexcept : translation_{} {}
   /// p' = rotation p + translation.
   SE2(const SO2<T>& rotation, const Vec<T, 2>& translation)
-  noexcept : translation_(translation), rotation_(rotation) {}
+      : translation_(translation), rotation_(rotation) {}
 
   /// The identity.
   static SE2 identity() noexcept { return SE2(); }

@@ -23,9 +23,9 @@
 namespace gslam {
 inline namespace v1 {
 
-/// @name Copies to Sophus
-/// @param x  what is copied
 /// @{
+/// A copy for Sophus.
+/// @param x  what is copied
 template <class T>
 Sophus::SO2<T> toSophus(const SO2<T>& x) {
   return Sophus::SO2<T>(x.cosine(), x.sine());
@@ -59,10 +59,10 @@ Sophus::Sim3<T> toSophus(const SIM3<T>& x) {
 }
 /// @}
 
-/// @name Copies from Sophus
+/// @{
+/// A copy.
 /// @param x  what is copied
 /// @throws ArgumentError when it is not finite
-/// @{
 template <class T>
 SO2<T> fromSophus(const Sophus::SO2<T>& x) {
   return SO2<T>::fromComplex(x.unit_complex().x(), x.unit_complex().y());

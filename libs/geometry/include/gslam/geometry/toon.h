@@ -23,9 +23,9 @@
 namespace gslam {
 inline namespace v1 {
 
-/// @name Copies to TooN
-/// @param x  what is copied
 /// @{
+/// A copy for TooN.
+/// @param x  what is copied
 template <class T, std::size_t N>
 TooN::Vector<static_cast<int>(N), T> toTooN(const Vec<T, N>& x) {
   TooN::Vector<static_cast<int>(N), T> result;
@@ -56,10 +56,10 @@ TooN::SIM3<T> toTooN(const SIM3<T>& x) {
 }
 /// @}
 
-/// @name Copies from TooN
+/// @{
+/// A copy.
 /// @param x  what is copied; of vectors and matrices the size must be known when compiling
 /// @throws ArgumentError what is no rotation is refused as by SO3::fromMatrix()
-/// @{
 template <int N, class T, class Base>
 Vec<T, static_cast<std::size_t>(N)> fromTooN(const TooN::Vector<N, T, Base>& x) {
   static_assert(N > 0, "the size of the vector must be known when compiling");
