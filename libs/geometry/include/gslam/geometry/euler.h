@@ -15,10 +15,9 @@
 ///
 /// A convention is a sequence of axes and whether they turn with the body:
 ///
-/// * intrinsic: R = R_first(a0) R_second(a1) R_third(a2): each rotation is about an axis of the
-/// body
-///   as the ones before have left it;
-/// * extrinsic: R = R_third(a2) R_second(a1) R_first(a0): each is about an axis of the fixed frame.
+/// * intrinsic, R = R_first(a0) R_second(a1) R_third(a2): each is about an axis of the body, as the
+///   ones before have left it;
+/// * extrinsic, R = R_third(a2) R_second(a1) R_first(a0): each is about an axis of the fixed frame.
 ///
 /// Extrinsic xyz with (a, b, c) is intrinsic zyx with (c, b, a). Both name the angles in the order
 /// of the sequence, in radians. What robots, ROS and aircraft call roll, pitch and yaw is extrinsic

@@ -21,9 +21,9 @@ inline namespace v1 {
 /// A rotation of the plane, from the x axis towards the y axis; `R_world_body` takes body to world
 /// coordinates. The interface is that of SO3.
 ///
-/// Invariant: inside is a unit complex number. Every function that makes an SO2 keeps its | |z| - 1
-/// | below 4 epsilon of T, but a product, whose norm is the product of the norms. normalized()
-/// mends that.
+/// Invariant: inside is a unit complex number z. Every function that makes an SO2 keeps | |z| - 1 |
+/// below 4 epsilon of T, but a product, whose norm is the product of the norms. normalized() mends
+/// that.
 ///
 /// Conventions: stored and printed as cosine and sine of the angle. Tangents are the angle, in
 /// radians. `R_a_b * R_b_c` is `R_a_c`.
