@@ -5,11 +5,13 @@ usage: compile_headers.py HOUSE_JSON COMPONENT COMPILER STANDARD [FLAG ...]
 
 Each header is compiled twice-included and by itself at -O0; tests/instantiate.cpp, which
 instantiates the templates and kernels, at -O0 and -O2. Opt-in headers (interop_headers of
-cmake/rooms.json) are left out where their library is not installed.
+cmake/rooms.json) see what pkg-config says of interop_packages, and are left out where their library
+is not installed or does not compile under this standard itself.
 """
 
 import json
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -26,9 +28,23 @@ def public_headers(component):
             yield path.relative_to(root).as_posix()
 
 
-def can_include(command, prefix_header):
-    probe = f"#if !__has_include(<{prefix_header}>)\n#error\n#endif\n"
-    return compiles(command + ["-fsyntax-only"], probe).returncode == 0
+def foreign_folders(packages):
+    """Where the libraries of opt-in headers are, but for what the compiler searches anyway."""
+    for package in packages:
+        result = subprocess.run(["pkg-config", "--cflags-only-I", package], text=True,
+                                capture_output=True, check=False)
+        for flag in result.stdout.split():
+            if flag != "-I/usr/include":
+                yield flag[2:]
+
+
+def library_is_usable(command, header, prefixes):
+    """Whether what an opt-in header includes of its library compiles without it."""
+    text = header.read_text(encoding="utf-8")
+    foreign = [name for name in re.findall(r"^#include <(.*)>", text, re.MULTILINE)
+               if any(name.startswith(prefix) for prefix in prefixes)]
+    alone = "".join(f"#include <{name}>\n" for name in foreign)
+    return compiles(command + ["-fsyntax-only"], alone).returncode == 0
 
 
 def compiles(command, text):
@@ -44,12 +60,15 @@ def main():
     command = [compiler, f"-std={standard}", *flags, *WARNINGS, "-o", "/dev/null", "-c"]
     for folder in include_folders(house, name):
         command.append("-I" + folder)
+    for folder in foreign_folders(plan["interop_packages"]):
+        command += ["-isystem", folder]
 
     jobs = []  # (what, source text, optimisation)
     for header in public_headers(component):
-        if header in plan["interop_headers"] and not can_include(
-                command, plan["interop_headers"][header][0]):
-            print(f"left out: {header}, its library is not installed")
+        prefixes = plan["interop_headers"].get(header)
+        path = pathlib.Path(component["folder"]) / "include" / header
+        if prefixes and not library_is_usable(command, path, prefixes):
+            print(f"left out: {header}, whose library is not installed or not for {standard}")
             continue
         include = f"#include <{header}>\n"
         jobs.append((header, include + include, "-O0"))
