@@ -1,4 +1,5 @@
 #include <gslam/geometry.h>
+#include <gslam/geometry/batch.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -22,6 +23,9 @@ struct Ours : Kind {
   }
   BENCH_INLINE static Group mult(const Group& a, const Group& b) { return a * b; }
   BENCH_INLINE static Point trans(const Group& a, const Point& p) { return a * p; }
+  static void transMany(const Group& a, const Point* p, std::size_t n, Point* to) {
+    gslam::transformPoints(a, gslam::Span<const Point>(p, n), gslam::Span<Point>(to, n));
+  }
   BENCH_INLINE static Group exp(const Tangent& v) { return Group::exp(v); }
   BENCH_INLINE static Tangent log(const Group& a) { return a.log(); }
   BENCH_INLINE static Group inverse(const Group& a) { return a.inverse(); }
@@ -45,8 +49,9 @@ struct Similar : Ours<Sim3, gslam::SIM3d> {
   }
 };
 
-const auto kSo3 = Cases<Rotation>("gslam").mult().trans().exp().log().inverse();
-const auto kSe3 = Cases<Rigid>("gslam").mult().trans().exp().log().inverse().leftJacobian();
-const auto kSim3 = Cases<Similar>("gslam").mult().trans().exp().log().inverse();
+const auto kSo3 = Cases<Rotation>("gslam").mult().trans().transMany().exp().log().inverse();
+const auto kSe3 =
+    Cases<Rigid>("gslam").mult().trans().transMany().exp().log().inverse().leftJacobian();
+const auto kSim3 = Cases<Similar>("gslam").mult().trans().transMany().exp().log().inverse();
 
 }  // namespace
