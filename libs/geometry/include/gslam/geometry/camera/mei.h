@@ -82,7 +82,7 @@ class MeiProjection {
   /// @param ray  result
   /// @return whether the iteration converged and the plane point is the image of a direction
   bool unproject(const Vec<T, 2>& m, Vec<T, 3>& ray) const noexcept {
-    Vec<T, 2> flat;
+    Vec<T, 2> flat{};
     if (!distortion_.undistort(m, flat)) return false;
     const T r2 = flat.squaredNorm();
     const T root = 1 + (1 - xi_ * xi_) * r2;

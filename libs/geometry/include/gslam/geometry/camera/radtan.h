@@ -74,7 +74,7 @@ class RadtanProjection {
   /// @param ray  result
   /// @return whether the iteration converged
   bool unproject(const Vec<T, 2>& m, Vec<T, 3>& ray) const noexcept {
-    Vec<T, 2> flat;
+    Vec<T, 2> flat{};
     if (!distortion_.undistort(m, flat)) return false;
     ray = {{flat[0], flat[1], T(1)}};
     return true;

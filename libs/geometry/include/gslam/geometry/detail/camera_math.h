@@ -77,7 +77,7 @@ void setRadialJacobian(const Vec<T, 3>& point, T r, T scale, T phi_by_r, T phi_b
 template <class Camera, class T, std::size_t N>
 bool unprojectJacobians(const Camera& camera, const Vec<T, 3>& bearing, Mat<T, 3, 2>* by_pixel,
                         Mat<T, 3, N>* by_parameters) noexcept {
-  Vec<T, 2> pixel;
+  Vec<T, 2> pixel{};
   Mat<T, 2, 3> j;
   Mat<T, 2, N> k;
   if (!camera.project(bearing, pixel, &j, &k)) return false;

@@ -59,7 +59,7 @@ class RadtanDistortion {
   // Newton's method, with steps that are halved until they bring the image nearer.
   // @return whether the image of the result is `image` within rounding
   bool undistort(const Vec<T, 2>& image, Vec<T, 2>& point) const noexcept {
-    Vec<T, 2> target;
+    Vec<T, 2> target{};
     State s;
     if (!tilt_.invert(image, target) || !start(target, s)) return false;
     const T unit = 1 + target.norm();
@@ -101,14 +101,14 @@ class RadtanDistortion {
   T at(std::size_t i) const noexcept { return i < N ? c_[i < N ? i : 0] : T(0); }
 
   struct State {
-    Vec<T, 2> point;
-    Vec<T, 2> miss;  // from the target to its image
+    Vec<T, 2> point{};
+    Vec<T, 2> miss{};  // from the target to its image
     Mat<T, 2, 2> slope;
   };
 
   // @return false where the point is outside of the disc
   bool look(const Vec<T, 2>& target, const Vec<T, 2>& point, State& s) const noexcept {
-    Vec<T, 2> reached;
+    Vec<T, 2> reached{};
     if (!distortFlat(point, reached, &s.slope, nullptr)) return false;
     s.point = point;
     s.miss = reached - target;
@@ -129,7 +129,7 @@ class RadtanDistortion {
   }
 
   bool isAt(const Vec<T, 2>& target, const Vec<T, 2>& point, T accepted) const noexcept {
-    Vec<T, 2> reached;
+    Vec<T, 2> reached{};
     return distortFlat(point, reached, nullptr, nullptr) &&
            (reached - target).squaredNorm() <= accepted * accepted;
   }
