@@ -104,13 +104,17 @@ GSLAM_DETAIL_FLATTEN std::size_t runNear(const Op& op, const In in, const Out ou
   return i;
 }
 
-/// For which of some elements the formula does not hold; x[k][i] is number k of element i.
-template <class Op, std::size_t W>
-void findFar(const typename Op::Scalar (&x)[Op::kFrom][W], bool (&is_far)[W]) noexcept {
+/// For which of the W elements of a view the formula does not hold.
+template <class Op, std::size_t W, class View>
+void findFar(const View& view, bool (&is_far)[W]) noexcept {
   using T = typename Op::Scalar;
+  T x[Op::kFrom][W], element[Op::kFrom], square[W];
+  for (std::size_t i = 0; i < W; ++i) {
+    view.get(i, element);
+    for (std::size_t k = 0; k < Op::kFrom; ++k) x[k][i] = element[k];
+  }
   typename Registers<T>::Register numbers[Op::kFrom];
   for (std::size_t k = 0; k < Op::kFrom; ++k) numbers[k] = Registers<T>::load(x[k]);
-  T square[W];
   Registers<T>::store(square, Formula<Op>::squaredAngle(numbers).r);
   for (std::size_t i = 0; i < W; ++i) is_far[i] = !(square[i] <= nearSquare<T>());
 }
@@ -122,25 +126,28 @@ template <class Op, class In, class Out>
 void runApart(const Op& op, const In& in, const Out& out, std::size_t begin, std::size_t count) {
   using T = typename Op::Scalar;
   constexpr std::size_t width = Registers<T>::kWidth;
-  T x[Op::kFrom][width];
+  const T zeros[Op::kFrom] = {};
   T element[Op::kFrom] = {}, result[Op::kTo];
-  for (std::size_t i = 0; i < width; ++i) {
-    if (i < count) in.get(begin + i, element);  // else the last once more
-    for (std::size_t k = 0; k < Op::kFrom; ++k) x[k][i] = element[k];
-  }
-  bool is_far[width];
-  findFar<Op>(x, is_far);
   Room<In, width> from;
   Room<Out, width> to;
   for (std::size_t i = 0; i < width; ++i) {
-    for (std::size_t k = 0; k < Op::kFrom; ++k) element[k] = is_far[i] ? T(0) : x[k][i];
+    if (i < count) in.get(begin + i, element);  // else the last once more
     from.put(i, element);
+  }
+  bool is_far[width] = {};
+  if (!Op::kIsFormulaForAll) {
+    findFar<Op>(from.view(), is_far);
+    for (std::size_t i = 0; i < width; ++i) {
+      if (is_far[i]) from.put(i, zeros);
+    }
   }
   runNear(op, from.view(), to.view(), 0, width);
   for (std::size_t i = 0; i < width && i < count; ++i) {
-    for (std::size_t k = 0; k < Op::kFrom; ++k) element[k] = x[k][i];
     to.view().get(i, result);
-    if (is_far[i]) Op::one(element, result, begin + i);
+    if (is_far[i]) {
+      in.get(begin + i, element);
+      Op::one(element, result, begin + i);
+    }
     out.set(begin + i, result);
   }
 }
