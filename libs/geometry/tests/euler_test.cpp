@@ -95,14 +95,14 @@ TYPED_TEST(Euler, GimbalLock) {
   using T = TypeParam;
   const T eighth = static_cast<T>(reference::kPi / 4);
   reference::Random<T> random;
+  const auto steps = reference::geometricSteps(this->epsilon() / 4, T(0.1), T(5));
   for (int i = 0; i < 8 * 8 * 8; ++i) {
-    const SO3<T> r = this->about('x', eighth * static_cast<T>(i % 8)) *
-                     this->about('y', eighth * static_cast<T>(i / 8 % 8)) *
-                     this->about('z', eighth * static_cast<T>(i / 64));
+    const int turns[3] = {i % 8, i / 8 % 8, i / 64};
+    const SO3<T> r = this->about('x', eighth * static_cast<T>(turns[0])) *
+                     this->about('y', eighth * static_cast<T>(turns[1])) *
+                     this->about('z', eighth * static_cast<T>(turns[2]));
     this->roundTrip(r);
-    for (T step = this->epsilon() / 4; step < T(0.1); step *= 5) {
-      this->roundTrip(r * SO3<T>::exp(step * random.direction()));
-    }
+    for (const T step : steps) this->roundTrip(r * SO3<T>::exp(step * random.direction()));
   }
 }
 

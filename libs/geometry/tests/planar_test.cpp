@@ -164,8 +164,8 @@ TEST(Planar, WhatIsRefused) {
 }
 
 TEST(Planar, UnitNumbersKeepTheirBits) {
-  for (double angle = -3; angle < 3; angle += 0.001) {
-    const SO2d r = SO2d::fromAngle(angle) * SO2d::fromAngle(0.3);
+  for (int i = -3000; i < 3000; ++i) {
+    const SO2d r = SO2d::fromAngle(0.001 * i) * SO2d::fromAngle(0.3);
     const SO2d unit = r.normalized();
     const SO2d again = SO2d::fromComplex(unit.cosine(), unit.sine());
     ASSERT_EQ(again.cosine(), unit.cosine());
