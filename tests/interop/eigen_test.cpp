@@ -108,7 +108,7 @@ TYPED_TEST(EigenTest, NearestRotationIsThatOfTheSvd) {
     const Eigen::Matrix<T, 3, 1> signs(1, 1, det > 0 ? T(1) : T(-1));
     const Mat<T, 3, 3> expected =
         fromEigen((svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose()).eval());
-    const auto s = svd.singularValues();
+    const auto& s = svd.singularValues();
     const T gap = s[1] + signs[2] * s[2];
     if (gap < T(0.01)) continue;  // there the answer shakes
     const auto nearest = gslam::nearestRotation(m);

@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gslam/geometry/text.h>
 
-#include <cstring>
+#include <cmath>
+#include <locale>
+#include <string>
 
 #include "any_group.h"
 
@@ -20,7 +22,11 @@ using testing::HasSubstr;
 
 template <class G>
 bool isSame(const G& a, const G& b) {  // to the bit: -0 is not 0
-  return std::memcmp(a.data(), b.data(), sizeof(G)) == 0;
+  for (std::size_t i = 0; i < sizeof(G) / sizeof(typename G::Scalar); ++i) {
+    const auto x = a.data()[i], y = b.data()[i];
+    if (!(x == y) || std::signbit(x) != std::signbit(y)) return false;
+  }
+  return true;
 }
 
 template <class G>

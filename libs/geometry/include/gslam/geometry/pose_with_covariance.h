@@ -206,7 +206,8 @@ class PoseWithCovariance {
 };
 
 template <class G>
-constexpr std::size_t PoseWithCovariance<G>::kPointSize;
+constexpr std::size_t
+    PoseWithCovariance<G>::kPointSize;  // NOLINT(readability-redundant-declaration): before C++17
 
 }  // namespace v1
 }  // namespace gslam

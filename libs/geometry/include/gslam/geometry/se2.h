@@ -263,7 +263,7 @@ class SE2 {
 };
 
 template <class T>
-constexpr std::size_t SE2<T>::kFreedom;
+constexpr std::size_t SE2<T>::kFreedom;  // NOLINT(readability-redundant-declaration): before C++17
 
 using SE2d = SE2<double>;  ///< double
 using SE2f = SE2<float>;   ///< float

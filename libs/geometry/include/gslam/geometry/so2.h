@@ -181,7 +181,7 @@ class SO2 {
 };
 
 template <class T>
-constexpr std::size_t SO2<T>::kFreedom;
+constexpr std::size_t SO2<T>::kFreedom;  // NOLINT(readability-redundant-declaration): before C++17
 
 using SO2d = SO2<double>;  ///< double
 using SO2f = SO2<float>;   ///< float

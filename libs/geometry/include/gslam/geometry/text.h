@@ -79,7 +79,7 @@ class NumberText {
       out_.str(std::string());
       out_.precision(digits);
       out_ << value;
-      const std::string text = out_.str();
+      std::string text = out_.str();
       T again = 0;
       if (digits >= std::numeric_limits<T>::max_digits10 || !std::isfinite(value)) return text;
       if (read(text, again) && again == value) return text;
