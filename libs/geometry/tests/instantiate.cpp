@@ -48,6 +48,16 @@ void instantiateBatches(std::vector<gslam::SE3d>& poses, std::vector<gslam::SO3f
       gslam::Span<gslam::SO3f>(rotations.data(), rotations.size()));
 }
 
+double instantiateFunctions(std::vector<gslam::SE3d>& poses);
+
+double instantiateFunctions(std::vector<gslam::SE3d>& poses) {
+  const gslam::Mean<gslam::SE3d> mean = gslam::mean(poses);
+  const gslam::SE3d middle =
+      gslam::interpolate(poses[0], gslam::fromText<gslam::SE3d>(gslam::toText(poses[1])), 0.5);
+  const auto nearest = gslam::nearestRotation(middle.rotation().matrix());
+  return gslam::geodesicDistance(mean.value, middle) + gslam::rollPitchYawOf(nearest.rotation)[0];
+}
+
 template <class T>
 void instantiateUndistorter(const gslam::Camera& camera, std::vector<T>& image) {
   const gslam::Undistorter undistorter(camera, camera);
