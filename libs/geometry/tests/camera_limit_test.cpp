@@ -180,4 +180,26 @@ TEST(CameraLimit, AngleWhereAnOcamStopsToGrow) {
   EXPECT_FALSE(camera.project({1, 0, 1}, pixel));
 }
 
+// Close to the plane of the camera the derivatives overflow, where the pixel does not.
+TEST(CameraLimit, DerivativesAreFiniteOrNone) {
+  for (const char* model : {"pinhole", "radtan", "fov"}) {
+    std::vector<double> values = {200, 200, 320, 240};
+    if (model == std::string("radtan")) values.insert(values.end(), {0, 0, 0, 0});
+    if (model == std::string("fov")) values.push_back(0.9);
+    const gslam::Camera camera = gslam::Camera::fromParameters(model, 640, 480, values);
+    for (const gslam::Vec3d& point : {gslam::Vec3d{0, 0, 1e-310}, gslam::Vec3d{1e-3, 0, 1e-160},
+                                      gslam::Vec3d{1, 0, 1e-310}, gslam::Vec3d{0, 0, 1e-100}}) {
+      gslam::Vec2d pixel;
+      gslam::Mat<double, 2, 3> j;
+      if (!camera.project(point, pixel, &j)) continue;
+      for (const double value : j.values) EXPECT_TRUE(std::isfinite(value)) << model << point;
+    }
+  }
+}
+
+TEST(CameraLimit, ResizingThatLeavesTheRangeIsRefused) {
+  const auto camera = gslam::Camera::fromParameters("pinhole", 2, 2, {1e305, 1e305, 0.5, 0.5});
+  EXPECT_THROW(camera.scaled(1e6), gslam::ArgumentError);
+}
+
 }  // namespace

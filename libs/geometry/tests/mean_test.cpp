@@ -181,4 +181,12 @@ TEST(MeanInput, WhatIsRefused) {
               HasSubstr("weights are 1"));
 }
 
+TEST(MeanInput, WhatHasNoWeightSpoilsNothing) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<gslam::SE3d> poses = {gslam::SE3d(gslam::SO3d(), {1, 0, 0}),
+                                          gslam::SE3d(gslam::SO3d(), {nan, 0, 0})};
+  const gslam::Mean<gslam::SE3d> mean = gslam::mean(poses, {1, 0});
+  EXPECT_TRUE(mean.value.isApprox(poses[0], 1e-15));
+}
+
 }  // namespace

@@ -221,4 +221,21 @@ TEST(CovarianceInput, WhatIsRefused) {
   EXPECT_EQ(refusal(3, 3, 0), "taken");
 }
 
+TEST(CovarianceInput, NearlySymmetricOnesAreMadeSymmetric) {
+  gslam::Mat3d m = gslam::Mat3d::identity();
+  m(0, 1) = 5e-4;
+  const PoseWithCovariance<gslam::SO3d> pose(gslam::SO3d(), m);
+  EXPECT_EQ(pose.covariance()(0, 1), 2.5e-4);
+  EXPECT_EQ(pose.covariance(), pose.covariance().transpose());
+  EXPECT_EQ((pose * pose).covariance(), (pose * pose).covariance().transpose());
+}
+
+// Each two of the three may be so correlated, but not all at once: the least eigenvalue is -0.8.
+TEST(CovarianceInput, IndefiniteOnesAreRefused) {
+  const gslam::Mat3d m = {1, 0.9, -0.9, 0.9, 1, 0.9, -0.9, 0.9, 1};
+  EXPECT_THROW(PoseWithCovariance<gslam::SO3d>(gslam::SO3d(), m), gslam::ArgumentError);
+  const gslam::Mat3d singular = {1, 1, 0, 1, 1, 0, 0, 0, 0};
+  EXPECT_NO_THROW(PoseWithCovariance<gslam::SO3d>(gslam::SO3d(), singular));
+}
+
 }  // namespace

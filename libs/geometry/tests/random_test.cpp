@@ -134,4 +134,11 @@ TEST(Random, StaysWithinItsReach) {
   EXPECT_LE(std::fabs(randomOf<gslam::SE3f>(generator, 2.0f).translation()[0]), 2);
 }
 
+TEST(Random, ARangeWithoutEndIsRefused) {
+  std::mt19937 generator;
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(gslam::randomUniform(generator, -infinity, infinity), gslam::ArgumentError);
+  EXPECT_THROW(gslam::randomOf<gslam::SE3d>(generator, infinity), gslam::ArgumentError);
+}
+
 }  // namespace

@@ -52,6 +52,13 @@ TYPED_TEST(Text, ProductsComeBack) {
   }
 }
 
+// Whatever stands first in memory, text has the order of a TUM trajectory.
+TEST(TextOfNumbers, TranslationFirst) {
+  EXPECT_EQ(gslam::toText(gslam::SE3d(gslam::SO3d(), {1, 2, 3})), "1 2 3 0 0 0 1");
+  EXPECT_EQ(gslam::toText(gslam::SIM3d(gslam::SO3d(), {1, 2, 3}, 4)), "1 2 3 0 0 0 1 4");
+  EXPECT_EQ(gslam::fromText<gslam::SE3d>("1 2 3 0 0 0 1").translation(), (gslam::Vec3d{1, 2, 3}));
+}
+
 TEST(TextOfNumbers, TheSmallestAndTheLargest) {
   const double smallest = std::numeric_limits<double>::denorm_min();
   const double largest = std::numeric_limits<double>::max();

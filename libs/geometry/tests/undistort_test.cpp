@@ -244,4 +244,11 @@ TEST(Undistort, WhatIsRefused) {
               HasSubstr("source has a stride of 7, expected 8 or more"));
 }
 
+TEST(Undistort, TargetsBeyondMemoryAreRefused) {
+  const auto source = gslam::Camera::fromParameters("pinhole", 640, 480, {200, 200, 320, 240});
+  const auto target =
+      gslam::Camera::fromParameters("pinhole", 2000000000, 2000000000, {200, 200, 320, 240});
+  EXPECT_THROW(gslam::Undistorter(source, target), gslam::ArgumentError);
+}
+
 }  // namespace

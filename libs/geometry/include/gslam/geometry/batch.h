@@ -45,8 +45,8 @@ inline namespace v1 {
 /// `component(k)[i]`.
 ///
 /// The components stand in the order in which they stand in the element itself: x y z of points and
-/// rotation vectors, x y z w of rotations (unit quaternions; this is not checked), tx ty tz qx qy
-/// qz qw of SE3, these and the scale of SIM3, (translation, rotation[, log scale]) of tangents.
+/// rotation vectors, x y z w of rotations (unit quaternions; this is not checked), qx qy qz qw tx
+/// ty tz of SE3, these and the scale of SIM3, (translation, rotation[, log scale]) of tangents.
 ///
 /// `Arrays<T, K>` converts to `Arrays<const T, K>`. Cheap to copy; safe to share as far as the
 /// elements are.

@@ -38,7 +38,8 @@ inline const char* meanStatusText(MeanStatus status) {
       "found the only mean",
       "found a mean that need not be the only one: a rotation is a quarter turn or more away",
       "found no mean: the elements are spread too far"};
-  return texts[static_cast<std::size_t>(status)];
+  const std::size_t index = static_cast<std::size_t>(status);
+  return index < sizeof(texts) / sizeof(texts[0]) ? texts[index] : "no status of a mean";
 }
 
 /// What mean() found.
@@ -134,7 +135,9 @@ struct MeanStart<R, R> {
 template <class G, class R, class T>
 typename R::Point meanTranslation(Span<const G> elements, const std::vector<T>& weights) {
   typename R::Point sum{};
-  for (std::size_t i = 0; i < elements.size(); ++i) sum += weights[i] * elements[i].translation();
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (weights[i] > 0) sum += weights[i] * elements[i].translation();
+  }
   return sum;
 }
 template <class T>
@@ -154,7 +157,7 @@ struct MeanStart<SIM3<T>, SO3<T>> {
   static SIM3<T> of(const SO3<T>& r, Span<const SIM3<T>> elements, const std::vector<T>& weights) {
     T log_scale = 0;
     for (std::size_t i = 0; i < elements.size(); ++i) {
-      log_scale += weights[i] * std::log(elements[i].scale());
+      if (weights[i] > 0) log_scale += weights[i] * std::log(elements[i].scale());
     }
     return SIM3<T>(r, meanTranslation<SIM3<T>, SO3<T>>(elements, weights), std::exp(log_scale));
   }

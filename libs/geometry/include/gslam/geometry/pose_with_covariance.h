@@ -41,8 +41,25 @@ const char* problemOfCovariance(const Mat<T, N, N>& m, std::size_t r, std::size_
   return is_symmetric ? nullptr : "expected a symmetric matrix";
 }
 
+/// The least pivot of the Cholesky decomposition of m + slack I; it ends at the first that is not
+/// above 0.
 template <class T, std::size_t N>
-void checkCovariance(const Mat<T, N, N>& m) {
+T leastPivot(Mat<T, N, N> m, T slack) noexcept {
+  T least = slack;
+  for (std::size_t k = 0; k < N; ++k) {
+    const T pivot = m(k, k) + slack;
+    if (!(pivot > 0)) return pivot;
+    if (pivot < least) least = pivot;
+    for (std::size_t r = k + 1; r < N; ++r) {
+      for (std::size_t c = k + 1; c < N; ++c) m(r, c) -= m(r, k) * m(k, c) / pivot;
+    }
+  }
+  return least;
+}
+
+/// The covariance, symmetric to the bit.
+template <class T, std::size_t N>
+Mat<T, N, N> checkedCovariance(const Mat<T, N, N>& m) {
   for (std::size_t r = 0; r < N; ++r) {
     for (std::size_t c = 0; c < N; ++c) {
       const char* const problem = problemOfCovariance(m, r, c);
@@ -52,6 +69,15 @@ void checkCovariance(const Mat<T, N, N>& m) {
                                             ", " + problem);
     }
   }
+  const Mat<T, N, N> symmetric = T(0.5) * (m + m.transpose());
+  T trace = 0;
+  for (std::size_t i = 0; i < N; ++i) trace += m(i, i);
+  const T least = leastPivot(symmetric, T(1e-3) * trace);
+  if (!(least >= 0)) {
+    throw ArgumentError("covariance",
+                        "is indefinite, expected no variance below 0 in any direction");
+  }
+  return symmetric;
 }
 
 }  // namespace detail
@@ -96,27 +122,26 @@ class PoseWithCovariance {
   /// @param pose        the mean
   /// @param covariance  of d in pose exp(d)
   /// @throws ArgumentError when an element is not finite, a variance is below 0, an element is more
-  ///   than its two variances allow, or the matrix is not symmetric
+  ///   than its two variances allow, or the matrix is not symmetric (to 1e-3) or is indefinite
   PoseWithCovariance(const G& pose, const Covariance& covariance)
-      : pose_(pose), covariance_(covariance) {
-    detail::checkCovariance(covariance);
-  }
+      : pose_(pose), covariance_(detail::checkedCovariance(covariance)) {}
   /// From the covariance of a perturbation on the left, exp(d) pose: d in the frame of the world.
   /// @param pose        the mean
   /// @param covariance  of d
   /// @throws ArgumentError as the constructor
   static PoseWithCovariance fromLeftCovariance(const G& pose, const Covariance& covariance) {
-    detail::checkCovariance(covariance);
-    return {pose, detail::propagated(pose.inverse().adjoint(), covariance), Unchecked()};
+    return {pose,
+            detail::propagated(pose.inverse().adjoint(), detail::checkedCovariance(covariance)),
+            Unchecked()};
   }
   /// From the covariance that covarianceInWorldAxes() gives; for SE2 and SE3.
   /// @param pose        the mean
   /// @param covariance  of translation and rotation along the axes of the world
   /// @throws ArgumentError as the constructor
   static PoseWithCovariance fromCovarianceInWorldAxes(const G& pose, const Covariance& covariance) {
-    detail::checkCovariance(covariance);
     const G turn(pose.rotation().inverse(), {});
-    return {pose, detail::propagated(turn.adjoint(), covariance), Unchecked()};
+    return {pose, detail::propagated(turn.adjoint(), detail::checkedCovariance(covariance)),
+            Unchecked()};
   }
 
   /// The mean.

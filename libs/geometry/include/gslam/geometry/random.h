@@ -1,6 +1,7 @@
 #ifndef GSLAM_GEOMETRY_RANDOM_H
 #define GSLAM_GEOMETRY_RANDOM_H
 
+#include <gslam/base/error.h>
 #include <gslam/geometry/se2.h>
 #include <gslam/geometry/se3.h>
 #include <gslam/geometry/sim3.h>
@@ -75,8 +76,12 @@ struct RandomDiscPoint {
 /// @param generator  gives the bits
 /// @param low        least
 /// @param high       greatest
+/// @throws ArgumentError when a bound is not finite
 template <class T, class Generator>
 T randomUniform(Generator& generator, T low, T high) {
+  if (!std::isfinite(low) || !std::isfinite(high)) {
+    throw ArgumentError("bound", "is not finite, expected a range of numbers");
+  }
   const double u = 0.5 + 0.5 * detail::RandomDiscPoint::symmetric(generator);
   return static_cast<T>(static_cast<double>(low) * (1 - u) + static_cast<double>(high) * u);
 }

@@ -141,7 +141,7 @@ class SE2 {
   /// Replaces t.
   void setTranslation(const Vec<T, 2>& translation) noexcept { translation_ = translation; }
   /// Four elements, tx ty cosine sine.
-  const T* data() const noexcept { return translation_.data(); }
+  const T* data() const noexcept { return reinterpret_cast<const T*>(this); }
   /// The same transform with numbers of another type.
   template <class U>
   SE2<U> cast() const {

@@ -25,9 +25,10 @@ inline namespace v1 {
 /// Invariant: that of SO3 for the rotation. The translation is what it was given or became; what is
 /// not finite passes through, as IEEE says.
 ///
-/// Conventions: stored and printed as in a line of a TUM trajectory, tx ty tz qx qy qz qw. Tangents
-/// are (translation, rotation), in the unit of the translation and radians. Perturbations are on
-/// the right: `T * SE3::exp(delta)`. `T_a_b * T_b_c` is `T_a_c`.
+/// Conventions: printed as in a line of a TUM trajectory, tx ty tz qx qy qz qw; in memory the
+/// quaternion stands first (see Layout). Tangents are (translation, rotation), in the unit of the
+/// translation and radians. Perturbations are on the right: `T * SE3::exp(delta)`. `T_a_b * T_b_c`
+/// is `T_a_c`.
 ///
 /// Exactness: exp and log are accurate at every angle, with no special angle in between: the error
 /// is below 4e-15 of the result's norm for double (18 epsilon). Jacobians: 1e-13.
@@ -151,7 +152,7 @@ class SE3 {
   /// Replaces t.
   void setTranslation(const Vec<T, 3>& translation) noexcept { translation_ = translation; }
   /// Seven elements, qx qy qz qw tx ty tz.
-  const T* data() const noexcept { return rotation_.data(); }
+  const T* data() const noexcept { return reinterpret_cast<const T*>(this); }
   /// The same transform with numbers of another type.
   template <class U>
   SE3<U> cast() const {

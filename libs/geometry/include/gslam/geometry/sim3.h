@@ -163,7 +163,7 @@ class SIM3 {
   /// R and t without the scale.
   SE3<T> rigid() const noexcept { return SE3<T>(rotation_, translation()); }
   /// Eight elements, qx qy qz qw tx ty tz s.
-  const T* data() const noexcept { return rotation_.data(); }
+  const T* data() const noexcept { return reinterpret_cast<const T*>(this); }
   /// The same similarity with numbers of another type.
   /// @throws ArgumentError when the scale leaves the range of U
   template <class U>

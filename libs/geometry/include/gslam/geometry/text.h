@@ -38,30 +38,48 @@ struct TextForm<SO2<T>> {
   static constexpr std::size_t kCount = 2;
   static const char* names() { return "cosine sine"; }
   static SO2<T> of(const T* v) { return SO2<T>::fromComplex(v[0], v[1]); }
+  static Vec<T, 2> numbers(const SO2<T>& r) { return {{r.data()[0], r.data()[1]}}; }
 };
 template <class T>
 struct TextForm<SO3<T>> {
   static constexpr std::size_t kCount = 4;
   static const char* names() { return "qx qy qz qw"; }
   static SO3<T> of(const T* v) { return SO3<T>::fromQuaternion(v[0], v[1], v[2], v[3]); }
+  static Vec<T, 4> numbers(const SO3<T>& r) { return r.quaternion(); }
 };
 template <class T>
 struct TextForm<SE2<T>> {
   static constexpr std::size_t kCount = 4;
   static const char* names() { return "tx ty cosine sine"; }
   static SE2<T> of(const T* v) { return SE2<T>(TextForm<SO2<T>>::of(v + 2), {{v[0], v[1]}}); }
+  static Vec<T, 4> numbers(const SE2<T>& pose) {
+    const Vec<T, 2> r = TextForm<SO2<T>>::numbers(pose.rotation());
+    return {{pose.translation()[0], pose.translation()[1], r[0], r[1]}};
+  }
 };
 template <class T>
 struct TextForm<SE3<T>> {
   static constexpr std::size_t kCount = 7;
   static const char* names() { return "tx ty tz qx qy qz qw"; }
   static SE3<T> of(const T* v) { return SE3<T>(TextForm<SO3<T>>::of(v + 3), {{v[0], v[1], v[2]}}); }
+  static Vec<T, 7> numbers(const SE3<T>& pose) {
+    Vec<T, 7> v;
+    v.setSegment(0, pose.translation());
+    v.setSegment(3, pose.rotation().quaternion());
+    return v;
+  }
 };
 template <class T>
 struct TextForm<SIM3<T>> {
   static constexpr std::size_t kCount = 8;
   static const char* names() { return "tx ty tz qx qy qz qw scale"; }
   static SIM3<T> of(const T* v) { return SIM3<T>(TextForm<SE3<T>>::of(v), v[7]); }
+  static Vec<T, 8> numbers(const SIM3<T>& s) {
+    Vec<T, 8> v;
+    v.setSegment(0, TextForm<SE3<T>>::numbers(s.rigid()));
+    v[7] = s.scale();
+    return v;
+  }
 };
 
 /// Numbers to text and back, in the classic locale.
@@ -132,11 +150,13 @@ class NumberText {
 /// @param element  of SO2, SO3, SE2, SE3 or SIM3
 template <class G>
 std::string toText(const G& element) {
-  detail::NumberText numbers;
+  using Form = detail::TextForm<G>;
+  detail::NumberText printer;
+  const auto numbers = Form::numbers(element);
   std::string text;
-  for (std::size_t i = 0; i < detail::TextForm<G>::kCount; ++i) {
+  for (std::size_t i = 0; i < Form::kCount; ++i) {
     if (i != 0) text += ' ';
-    text += numbers.print(element.data()[i]);
+    text += printer.print(numbers[i]);
   }
   return text;
 }

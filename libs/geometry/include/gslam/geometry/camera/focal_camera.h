@@ -102,6 +102,8 @@ class FocalCamera {
     if (!projection_.project(point, m, is_derived ? &jacobians : nullptr)) return false;
     const Pixel result = {{fx_ * m[0] + cx_, fy_ * m[1] + cy_}};
     if (!detail::isFinite(result)) return false;
+    // Next to the plane of the camera derivatives overflow before the pixel does.
+    if (is_derived && !jacobians.isFinite()) return false;
     pixel = result;
     if (by_point != nullptr) {
       for (std::size_t c = 0; c < 3; ++c) {

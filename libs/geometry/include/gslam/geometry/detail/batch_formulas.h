@@ -42,8 +42,9 @@ struct LogLanes {
 };
 
 /// The formula of an operation, on registers: x[k] holds number k of some elements, y[k] that of
-/// the results. Where it is not for all elements, squaredAngle() says for which, those up to
-/// nearSquare().
+/// the results, in the order in which they stand in the element: qx qy qz qw tx ty tz of SE3, and
+/// the scale of SIM3 as the eighth. Where it is not for all elements, squaredAngle() says for
+/// which, those up to nearSquare().
 template <class Op>
 struct Formula;
 
@@ -84,8 +85,8 @@ struct Formula<Exp<SE3<T>>> : FormulaBase<Exp<SE3<T>>> {
     const ExpLanes<T> e(v, square);
     const L c2 = (e.half_sine + e.half_sine) * e.half_sine;
     const L c3 = evenAndOdd(stumpff3Table(T()), square);
-    v.crossAdd(multiplyAdd(c3, v.cross(r), c2 * r), r).put(y);
-    e.q.put(y + 3);
+    e.q.put(y);
+    v.crossAdd(multiplyAdd(c3, v.cross(r), c2 * r), r).put(y + 4);
   }
 };
 
@@ -111,8 +112,8 @@ struct Formula<Log<SE3<T>>> : FormulaBase<Log<SE3<T>>> {
   using typename Base::Register;
 
   void operator()(const Register* x, Register* y) const noexcept {
-    const Lanes3<L> t = Lanes3<L>::of(x);
-    const Quaternion<L> q = Quaternion<L>::of(x + 3);
+    const Quaternion<L> q = Quaternion<L>::of(x);
+    const Lanes3<L> t = Lanes3<L>::of(x + 4);
     const LogLanes<T> log(q);
     q.u.crossAdd(multiplyAdd(log.d, q.u.cross(t), -log.half_factor * t), t).put(y);
     ((log.half_factor + log.half_factor) * q.u).put(y + 3);
@@ -139,9 +140,9 @@ struct Formula<Inverse<SE3<T>>> : FormulaBase<Inverse<SE3<T>>> {
   using typename Base::Register;
 
   void operator()(const Register* x, Register* y) const noexcept {
-    const Quaternion<L> back = Quaternion<L>::of(x + 3).conjugate();
-    back.rotate(-Lanes3<L>::of(x)).put(y);
-    back.put(y + 3);
+    const Quaternion<L> back = Quaternion<L>::of(x).conjugate();
+    back.put(y);
+    back.rotate(-Lanes3<L>::of(x + 4)).put(y + 4);
   }
 };
 
@@ -153,10 +154,10 @@ struct Formula<Inverse<SIM3<T>>> : FormulaBase<Inverse<SIM3<T>>> {
   using typename Base::Register;
 
   void operator()(const Register* x, Register* y) const noexcept {
-    const Quaternion<L> back = Quaternion<L>::of(x + 3).conjugate();
+    const Quaternion<L> back = Quaternion<L>::of(x).conjugate();
     const L scale = L::all(T(1)) / L{x[7]};
-    back.rotate(-scale * Lanes3<L>::of(x)).put(y);
-    back.put(y + 3);
+    back.put(y);
+    back.rotate(-scale * Lanes3<L>::of(x + 4)).put(y + 4);
     y[7] = scale.r;
   }
 };
@@ -181,9 +182,9 @@ struct Formula<Compose<SE3<T>>> : FormulaBase<Compose<SE3<T>>> {
   using typename Base::Register;
 
   void operator()(const Register* x, Register* y) const noexcept {
-    const Quaternion<L> a = Quaternion<L>::of(x + 3);
-    a.rotateAdd(Lanes3<L>::of(x + 7), Lanes3<L>::of(x)).put(y);
-    (a * Quaternion<L>::of(x + 10)).put(y + 3);
+    const Quaternion<L> a = Quaternion<L>::of(x);
+    (a * Quaternion<L>::of(x + 7)).put(y);
+    a.rotateAdd(Lanes3<L>::of(x + 11), Lanes3<L>::of(x + 4)).put(y + 4);
   }
 };
 
@@ -195,9 +196,9 @@ struct Formula<Compose<SIM3<T>>> : FormulaBase<Compose<SIM3<T>>> {
   using typename Base::Register;
 
   void operator()(const Register* x, Register* y) const noexcept {
-    const Quaternion<L> a = Quaternion<L>::of(x + 3);
-    multiplyAdd(L{x[7]}, a.rotate(Lanes3<L>::of(x + 8)), Lanes3<L>::of(x)).put(y);
-    (a * Quaternion<L>::of(x + 11)).put(y + 3);
+    const Quaternion<L> a = Quaternion<L>::of(x);
+    (a * Quaternion<L>::of(x + 8)).put(y);
+    multiplyAdd(L{x[7]}, a.rotate(Lanes3<L>::of(x + 12)), Lanes3<L>::of(x + 4)).put(y + 4);
     y[7] = x[7] * x[15];
   }
 };
@@ -222,7 +223,7 @@ struct Formula<ActOnOne<SE3<T>>> : FormulaBase<ActOnOne<SE3<T>>> {
   using typename Base::Register;
 
   void operator()(const Register* x, Register* y) const noexcept {
-    Quaternion<L>::of(x + 3).rotateAdd(Lanes3<L>::of(x + 7), Lanes3<L>::of(x)).put(y);
+    Quaternion<L>::of(x).rotateAdd(Lanes3<L>::of(x + 7), Lanes3<L>::of(x + 4)).put(y);
   }
 };
 
@@ -234,8 +235,8 @@ struct Formula<ActOnOne<SIM3<T>>> : FormulaBase<ActOnOne<SIM3<T>>> {
   using typename Base::Register;
 
   void operator()(const Register* x, Register* y) const noexcept {
-    const Lanes3<L> turned = Quaternion<L>::of(x + 3).rotate(Lanes3<L>::of(x + 8));
-    multiplyAdd(L{x[7]}, turned, Lanes3<L>::of(x)).put(y);
+    const Lanes3<L> turned = Quaternion<L>::of(x).rotate(Lanes3<L>::of(x + 8));
+    multiplyAdd(L{x[7]}, turned, Lanes3<L>::of(x + 4)).put(y);
   }
 };
 

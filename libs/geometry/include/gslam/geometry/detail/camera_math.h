@@ -22,6 +22,13 @@ template <class T, std::size_t K>
 struct ProjectionJacobians {
   Mat<T, 2, 3> point;
   T parameters[2][K == 0 ? 1 : K];
+
+  bool isFinite() const noexcept {
+    bool all = true;
+    for (const T value : point.values) all = all && std::isfinite(value);
+    for (std::size_t i = 0; i < 2 * K; ++i) all = all && std::isfinite(parameters[i / K][i % K]);
+    return all;
+  }
 };
 
 // Whether a sum of squares is so far from both ends of T's range that no digit was lost.

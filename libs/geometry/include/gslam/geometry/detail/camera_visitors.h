@@ -128,7 +128,8 @@ struct Resize {
   template <class Model>
   Result operator()(const Model& model) const {
     Camera result = camera;
-    result.storage_.set(model.resized(factor_x, factor_y));
+    // Made anew, so that what is no camera any more is refused.
+    result.storage_.set(Model(model.resized(factor_x, factor_y).parameters()));
     return result;
   }
   Result none() const { return camera; }

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,11 @@ struct RemapTable {
              const ParallelOptions& options) {
     checkSize(source);
     if (!target.isValid()) throw ArgumentError("target", "is no camera");
+    if (target.height() > std::numeric_limits<std::int32_t>::max() / 8 / target.width()) {
+      throw ArgumentError("target", "has " + std::to_string(target.width()) + " x " +
+                                        std::to_string(target.height()) +
+                                        " pixels, expected less than 2^28");
+    }
     width = static_cast<std::size_t>(target.width());
     const std::size_t height = static_cast<std::size_t>(target.height());
     xy.resize(2 * width * height);
