@@ -26,7 +26,9 @@ struct ProjectionJacobians {
   bool isFinite() const noexcept {
     bool all = true;
     for (const T value : point.values) all = all && std::isfinite(value);
-    for (std::size_t i = 0; i < 2 * K; ++i) all = all && std::isfinite(parameters[i / K][i % K]);
+    for (const T(&row)[K == 0 ? 1 : K] : parameters) {
+      for (std::size_t i = 0; i < K; ++i) all = all && std::isfinite(row[i]);
+    }
     return all;
   }
 };
