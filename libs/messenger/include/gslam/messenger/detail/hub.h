@@ -5,6 +5,7 @@
 #include <gslam/messenger/detail/topic_name.h>
 #include <gslam/messenger/topic.h>
 
+#include <algorithm>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -170,22 +171,34 @@ class Hub {
     end(subscription, all.data(), all.size(), pending);
   }
 
-  /// Takes a subscription out of those of the topics that it is in, and ends it.
-  /// @param topics  `count` of them
+  /// Takes a subscription out of those of the topics that it is in, and ends it. Several may do so
+  /// at once: each waits for its callbacks, unless he is in a callback himself.
+  /// @param topics  `count` of them, one at least
   static void end(const std::shared_ptr<Subscription>& subscription,
                   const std::shared_ptr<Topic>* topics, std::size_t count, Pending pending) {
-    if (!subscription->is_active.exchange(false)) return;
+    const bool is_first = subscription->is_active.exchange(false);
     Topics left;
     for (std::size_t i = 0; i < count; ++i) {
       if (topics[i]->remove(subscription)) left.push_back(topics[i]);
     }
-    subscription->close(pending);  // lets publishers go that wait for room
-    for (const std::shared_ptr<Topic>& one : left) one->waitForPublishers();
-    subscription->finish();
+    if (is_first) subscription->close(pending);  // lets publishers go that wait for room
+    if (!topics[0]->errors().thread().isCalling()) {
+      for (std::size_t i = 0; i < count; ++i) {
+        // who is not the first does not know where it was taken out
+        const bool was_in = is_first ? isAmong(left, topics[i])
+                                     : matches(subscription->topic(), topics[i]->name());
+        if (was_in) topics[i]->waitForPublishers();
+      }
+      subscription->finish();
+    }
     for (const std::shared_ptr<Topic>& one : left) one->tell(TopicChange::subscriber_left);
   }
 
  private:
+  static bool isAmong(const Topics& topics, const std::shared_ptr<Topic>& topic) {
+    return std::find(topics.begin(), topics.end(), topic) != topics.end();
+  }
+
   // What the messenger tells of itself must be asked for: who records all topics does not change
   // what there is to record.
   static bool matches(const std::string& pattern, const std::string& name) {

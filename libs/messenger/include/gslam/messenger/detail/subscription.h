@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <utility>
@@ -40,7 +41,8 @@ class Subscription {
   virtual void receive(AnyLetter& letter, const TopicFacts& topic) = 0;
   /// Takes no more messages; publishers that wait for room are let go.
   virtual void close(Pending) {}
-  /// Waits for callbacks, when no publisher is in receive() any more.
+  /// Waits for callbacks, when no publisher is in receive() any more. May be called several times,
+  /// and by several threads at once.
   virtual void finish() {}
   virtual QueueCounts counts() const { return {0, 0}; }
 
@@ -170,8 +172,10 @@ class QueuedSubscription final
     queue_.close(pending);
   }
   void finish() override {
-    if (queue_.isConsumer()) return;  // ends when the callback, which we are in, has returned
+    if (queue_.isConsumer()) return;  // a message that ends it when it goes
+    const std::lock_guard<std::mutex> lock(finish_mutex_);
     if (thread_.joinable()) return thread_.join();
+    if (pool_ == nullptr) return;
     queue_.waitUntilIdle();
     pool_.reset();  // nobody posts any more
   }
@@ -182,15 +186,15 @@ class QueuedSubscription final
 
   void work() {
     const Consuming consuming(&queue_);
-    const Delivering delivering(errors_->thread());
+    CallbackThread& thread = errors_->thread();
     if (queue_.isBounded()) {
       Item item;
-      while (queue_.waitPop(item)) deliver(std::move(item));
+      while (queue_.waitPop(item)) deliver(std::move(item), thread);
       return;
     }
     Ring<Item> items;
     while (queue_.waitPopAll(items)) {
-      while (!items.empty() && !is_discarding_) deliver(items.pop());
+      while (!items.empty() && !is_discarding_) deliver(items.pop(), thread);
       if (items.empty()) continue;
       queue_.countDropped(items.size());
       Ring<Item>().swap(items);
@@ -208,11 +212,11 @@ class QueuedSubscription final
   void workAWhile() {
     std::shared_ptr<QueuedSubscription> self = std::move(alive_while_posted_);
     const Consuming consuming(&queue_);
-    const Delivering delivering(errors_->thread());
+    CallbackThread& thread = errors_->thread();
     Item item;
     for (int i = 0; i < 32; ++i) {
       if (queue_.tryPop(item)) {
-        deliver(std::move(item));
+        deliver(std::move(item), thread);
       } else if (queue_.goIdle()) {
         return;
       }
@@ -220,7 +224,9 @@ class QueuedSubscription final
     post(std::move(self));
   }
 
-  void deliver(Item taken) {
+  // What the callback gives up ends with it, and not when the thread does.
+  void deliver(Item taken, CallbackThread& thread) {
+    const Delivering delivering(thread);
     const Item item = std::move(taken);
     errors_->guard(topic(), [&] { Payload::call(callback_, item); });
   }
@@ -231,6 +237,7 @@ class QueuedSubscription final
   F callback_;
   const std::shared_ptr<ErrorSink> errors_;
   std::atomic<bool> is_discarding_{false};
+  std::mutex finish_mutex_;  // who ends it changes thread_ and pool_
   std::thread thread_;
 };
 
