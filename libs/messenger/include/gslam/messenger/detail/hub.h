@@ -74,7 +74,7 @@ class Hub {
   /// @throws TypeMismatch where it carries another type
   std::shared_ptr<Topic> topic(const std::string& name, const PayloadType& type) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (is_shut_down_) throw Error("the messenger was shut down: nothing can be joined to it");
+    refuseIfShutDown();
     std::shared_ptr<Topic> found = topics_.find(name);
     if (!found) found = makeTopic(name, type);
     if (found->type() != type) throw TypeMismatch(name, found->type().name(), type.name());
@@ -94,7 +94,7 @@ class Hub {
   /// @throws TypeMismatch where it has other types
   std::shared_ptr<Topic> service(const std::string& name, const PayloadType& type) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (is_shut_down_) throw Error("the messenger was shut down: nothing can be joined to it");
+    refuseIfShutDown();
     std::shared_ptr<Topic> found = services_.find(name);
     if (!found) {
       found = Topic::make(name, type, errors_, nullptr);
@@ -109,6 +109,13 @@ class Hub {
     const std::lock_guard<std::mutex> lock(mutex_);
     const std::shared_ptr<Topic> found = services_.find(name);
     return found != nullptr && !found->subscriptions().empty();
+  }
+
+  /// For who has just joined a subscription: a shutdown that did not see it has begun before.
+  /// @throws Error after a shutdown
+  void refuseAfterShutDown() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    refuseIfShutDown();
   }
 
   /// Ends all subscriptions, and refuses more.
@@ -139,10 +146,12 @@ class Hub {
   }
 
   /// Adds one who listens to all topics that match its pattern, now and later.
+  /// @throws Error after a shutdown, also one that comes meanwhile
   void addPattern(const std::shared_ptr<Subscription>& subscription) {
     Topics matching;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
+      refuseIfShutDown();
       patterns_.push_back(subscription);
       ++subscription->places;
       for (const std::shared_ptr<Topic>& one : topics_.all()) {
@@ -153,6 +162,7 @@ class Hub {
       one->add(subscription);
       one->tell(TopicChange::subscriber_came);
     }
+    refuseAfterShutDown();
   }
 
   /// Ends a subscription to a pattern.
@@ -206,6 +216,10 @@ class Hub {
     const bool is_ours = name.compare(0, ours.size(), ours) == 0;
     return matchesPattern(pattern, name) &&
            (!is_ours || pattern.compare(0, ours.size(), ours) == 0);
+  }
+
+  void refuseIfShutDown() const {
+    if (is_shut_down_) throw Error("the messenger was shut down: nothing can be joined to it");
   }
 
   std::shared_ptr<Topic> makeTopic(const std::string& name, const PayloadType& type) {
