@@ -166,7 +166,8 @@ TEST(Shutdown, LeavesNobodyWhoJoinsAtTheSameTime) {
     });
     go = true;
     try {
-      for (int i = 0; i < 100; ++i) joins[static_cast<std::size_t>(round) % joins.size()](messenger);
+      for (int i = 0; i < 100; ++i)
+        joins[static_cast<std::size_t>(round) % joins.size()](messenger);
     } catch (const gslam::Error&) {  // shut down, or served already
     }
     other.join();

@@ -34,9 +34,7 @@ class Inbox {
   template <class Rep, class Period>
   std::shared_ptr<const T> waitFor(const std::chrono::duration<Rep, Period>& time) {
     std::shared_ptr<const T> message;
-    if (subscription_) {
-      subscription_->queue().waitPopUntil(message, std::chrono::steady_clock::now() + time);
-    }
+    if (subscription_) subscription_->queue().waitPopFor(message, time);
     return message;
   }
 

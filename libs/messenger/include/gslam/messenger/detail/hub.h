@@ -195,8 +195,8 @@ class Hub {
     if (!topics[0]->errors().thread().isCalling()) {
       for (std::size_t i = 0; i < count; ++i) {
         // who is not the first does not know where it was taken out
-        const bool was_in = is_first ? isAmong(left, topics[i])
-                                     : matches(subscription->topic(), topics[i]->name());
+        const bool was_in =
+            is_first ? isAmong(left, topics[i]) : matches(subscription->topic(), topics[i]->name());
         if (was_in) topics[i]->waitForPublishers();
       }
       subscription->finish();

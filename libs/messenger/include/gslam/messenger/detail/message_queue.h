@@ -4,6 +4,7 @@
 
 #include <gslam/base/detail/ring.h>
 #include <gslam/messenger/detail/brief_wait.h>
+#include <gslam/messenger/detail/wait_time.h>
 #include <gslam/messenger/options.h>
 
 #include <atomic>
@@ -30,7 +31,7 @@ template <class Item>
 class MessageQueue {
  public:
   explicit MessageQueue(const SubscribeOptions& options)
-      : capacity_(options.capacity), overflow_(options.overflow), spin_(options.spin) {}
+      : capacity_(options.capacity), overflow_(options.overflow), spin_(waitTime(options.spin)) {}
 
   /// Lets a message wait, or drops one, as the options say. True where a consumer that had nothing
   /// to do should be started.
@@ -80,8 +81,9 @@ class MessageQueue {
   }
 
   /// The same as waitPop(), but no longer than that; false also where none came.
-  template <class Clock, class Duration>
-  bool waitPopUntil(Item& item, const std::chrono::time_point<Clock, Duration>& end) {
+  template <class Rep, class Period>
+  bool waitPopFor(Item& item, const std::chrono::duration<Rep, Period>& time) {
+    const auto end = std::chrono::steady_clock::now() + waitTime(time);
     std::unique_lock<std::mutex> lock(mutex_);
     ++sleepers_;
     not_empty_.wait_until(lock, end, [this] { return !ring_.empty() || is_closed_; });
@@ -201,7 +203,7 @@ class MessageQueue {
 
   const std::size_t capacity_;
   const Overflow overflow_;
-  const std::chrono::microseconds spin_;
+  const std::chrono::nanoseconds spin_;
   BriefWait wait_{false};                // of a consumer with a thread of its own
   bool was_short_ = false;               // so was its last sleep: the wait may be better
   BriefWait publishers_wait_{true};      // for room
