@@ -39,6 +39,7 @@ class Subscriber {
     hub_.swap(ended.hub_);
     topic_.swap(ended.topic_);
     subscription_.swap(ended.subscription_);
+    dropped_.swap(ended.dropped_);
     return *this;
   }
   ~Subscriber() { unsubscribe(); }
@@ -64,6 +65,7 @@ class Subscriber {
     const std::shared_ptr<detail::Hub> hub = std::move(hub_);
     const std::shared_ptr<detail::Topic> topic = std::move(topic_);
     const std::shared_ptr<detail::Subscription> subscription = std::move(subscription_);
+    dropped_.reset();
   }
 
   /// Whether the subscription is in force.
@@ -74,20 +76,22 @@ class Subscriber {
 
   /// Messages that wait in its queue; 0 for a synchronous one.
   std::size_t waiting() const { return subscription_ ? subscription_->counts().waiting : 0; }
-  /// Messages that were dropped because its queue was full, or at its end.
-  std::uint64_t dropped() const { return subscription_ ? subscription_->counts().dropped : 0; }
+  /// Messages that were dropped because its queue was full, or at its end; also after that.
+  std::uint64_t dropped() const { return dropped_ ? dropped_->load() : 0; }
 
  private:
   friend class Messenger;
   Subscriber(std::shared_ptr<detail::Topic> topic,
-             std::shared_ptr<detail::Subscription> subscription)
-      : topic_(std::move(topic)), subscription_(std::move(subscription)) {}
-  Subscriber(std::shared_ptr<detail::Hub> hub, std::shared_ptr<detail::Subscription> subscription)
-      : hub_(std::move(hub)), subscription_(std::move(subscription)) {}
+             const std::shared_ptr<detail::Subscription>& subscription)
+      : topic_(std::move(topic)), subscription_(subscription), dropped_(subscription->dropped()) {}
+  Subscriber(std::shared_ptr<detail::Hub> hub,
+             const std::shared_ptr<detail::Subscription>& subscription)
+      : hub_(std::move(hub)), subscription_(subscription), dropped_(subscription->dropped()) {}
 
   std::shared_ptr<detail::Hub> hub_;      // of a pattern, which may be in any topic; else null
   std::shared_ptr<detail::Topic> topic_;  // null for a pattern
   std::shared_ptr<detail::Subscription> subscription_;
+  detail::SharedCount dropped_;  // null where nothing can be dropped
 };
 
 }  // namespace v1

@@ -12,6 +12,8 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -25,6 +27,9 @@ struct QueueCounts {
   std::uint64_t dropped;  ///< that came and were not delivered
   std::size_t waiting;    ///< that are there now
 };
+
+/// A count that outlives its queue.
+using SharedCount = std::shared_ptr<std::atomic<std::uint64_t>>;
 
 /// Messages from any number of publishers to one consumer.
 template <class Item>
@@ -43,7 +48,7 @@ class MessageQueue {
     if (is_closed_ || (is_full && overflow_ == Overflow::drop_newest)) return drop(item, dropped);
     if (is_full && overflow_ == Overflow::drop_oldest) {
       dropped = ring_.pop();
-      ++dropped_;
+      ++*dropped_;
     }
     ring_.push(std::move(item));
     size_.store(ring_.size(), std::memory_order_relaxed);
@@ -70,15 +75,19 @@ class MessageQueue {
   }
 
   /// All that waits, in exchange for an empty ring; false when closed and empty. For queues without
-  /// bound: what was taken does not count any more.
+  /// bound: what was taken has no place in them. The consumer says how much of it still waits.
   bool waitPopAll(Ring<Item>& items) {
     lookAround();
     std::unique_lock<std::mutex> lock(mutex_);
     waitForMessage(lock);
     ring_.swap(items);
     size_.store(0, std::memory_order_relaxed);
+    setTaken(items.size());
     return !items.empty();
   }
+
+  /// How many of those that waitPopAll() gave are still to be delivered.
+  void setTaken(std::size_t count) noexcept { taken_.store(count, std::memory_order_relaxed); }
 
   /// The same as waitPop(), but no longer than that; false also where none came.
   template <class Rep, class Period>
@@ -112,7 +121,7 @@ class MessageQueue {
     is_closed_ = true;
     is_closing_.store(true, std::memory_order_relaxed);
     if (pending == Pending::discard) {
-      dropped_ += ring_.size();
+      *dropped_ += ring_.size();
       ring_.swap(dropped);
       size_.store(0, std::memory_order_relaxed);
     }
@@ -121,14 +130,13 @@ class MessageQueue {
   }
 
   /// Messages that were taken out and not delivered.
-  void countDropped(std::size_t count) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    dropped_ += count;
-  }
+  void countDropped(std::size_t count) noexcept { *dropped_ += count; }
+  /// Goes on after the queue.
+  const SharedCount& dropped() const noexcept { return dropped_; }
   bool isBounded() const noexcept { return capacity_ != std::numeric_limits<std::size_t>::max(); }
   QueueCounts counts() const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return {dropped_, ring_.size()};
+    return {dropped_->load(), ring_.size() + taken_.load(std::memory_order_relaxed)};
   }
 
   /// Which queue this thread delivers from just now.
@@ -151,7 +159,7 @@ class MessageQueue {
  private:
   bool drop(Item& item, Item& dropped) {
     dropped = std::move(item);
-    ++dropped_;
+    ++*dropped_;
     return false;
   }
 
@@ -204,6 +212,8 @@ class MessageQueue {
   const std::size_t capacity_;
   const Overflow overflow_;
   const std::chrono::nanoseconds spin_;
+  const SharedCount dropped_ = std::make_shared<std::atomic<std::uint64_t>>(0);
+  std::atomic<std::size_t> taken_{0};    // by waitPopAll(), and still to be delivered
   BriefWait wait_{false};                // of a consumer with a thread of its own
   bool was_short_ = false;               // so was its last sleep: the wait may be better
   BriefWait publishers_wait_{true};      // for room
@@ -214,7 +224,6 @@ class MessageQueue {
   std::condition_variable not_full_;
   std::condition_variable idle_;
   Ring<Item> ring_;
-  std::uint64_t dropped_ = 0;
   std::size_t waiting_publishers_ = 0;
   std::size_t sleepers_ = 0;  // consumers that wait for not_empty_
   bool is_busy_ = false;      // a consumer on an executor is at work, or about to be

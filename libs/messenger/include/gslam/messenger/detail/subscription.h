@@ -45,6 +45,8 @@ class Subscription {
   /// and by several threads at once.
   virtual void finish() {}
   virtual QueueCounts counts() const { return {0, 0}; }
+  /// What was dropped, also after this has gone; null where nothing can be.
+  virtual SharedCount dropped() const { return nullptr; }
 
   const std::string& name() const noexcept { return name_; }
   const std::string& topic() const noexcept { return topic_; }
@@ -180,6 +182,7 @@ class QueuedSubscription final
     pool_.reset();  // nobody posts any more
   }
   QueueCounts counts() const override { return queue_.counts(); }
+  SharedCount dropped() const override { return queue_.dropped(); }
 
  private:
   using Consuming = typename MessageQueue<Item>::Consuming;
@@ -194,9 +197,13 @@ class QueuedSubscription final
     }
     Ring<Item> items;
     while (queue_.waitPopAll(items)) {
-      while (!items.empty() && !is_discarding_) deliver(items.pop(), thread);
+      while (!items.empty() && !is_discarding_) {
+        queue_.setTaken(items.size() - 1);
+        deliver(items.pop(), thread);
+      }
       if (items.empty()) continue;
       queue_.countDropped(items.size());
+      queue_.setTaken(0);
       Ring<Item>().swap(items);
     }
   }
@@ -253,6 +260,7 @@ class InboxSubscription final : public Subscription {
   }
   void close(Pending pending) override { queue_.close(pending); }
   QueueCounts counts() const override { return queue_.counts(); }
+  SharedCount dropped() const override { return queue_.dropped(); }
   MessageQueue<Item>& queue() noexcept { return queue_; }
 
  private:
