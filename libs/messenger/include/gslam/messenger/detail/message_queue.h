@@ -108,7 +108,13 @@ class MessageQueue {
     idle_.notify_all();
     return true;
   }
-  /// Waits until goIdle() was true and nothing waits.
+  /// The consumer could not be started: what waits does so until the next message starts it.
+  void stayIdle() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_busy_ = false;
+    idle_.notify_all();
+  }
+  /// Waits until goIdle() was true and nothing waits, or the consumer could not be started.
   void waitUntilIdle() {
     std::unique_lock<std::mutex> lock(mutex_);
     idle_.wait(lock, [this] { return !is_busy_; });

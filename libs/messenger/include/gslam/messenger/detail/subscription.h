@@ -167,7 +167,7 @@ class QueuedSubscription final
 
   void receive(AnyLetter& letter, const TopicFacts& topic) override {
     const bool was_idle = queue_.push(Payload::take(letter, topic));
-    if (was_idle && pool_ != nullptr) post(this->shared_from_this());
+    if (was_idle && pool_ != nullptr) startOnPool();
   }
   void close(Pending pending) override {
     if (pending == Pending::discard) is_discarding_ = true;
@@ -179,7 +179,8 @@ class QueuedSubscription final
     if (thread_.joinable()) return thread_.join();
     if (pool_ == nullptr) return;
     queue_.waitUntilIdle();
-    pool_.reset();  // nobody posts any more
+    queue_.close(Pending::discard);  // where the pool took no task, something may be left
+    pool_.reset();                   // nobody posts any more
   }
   QueueCounts counts() const override { return queue_.counts(); }
   SharedCount dropped() const override { return queue_.dropped(); }
@@ -208,27 +209,52 @@ class QueuedSubscription final
     }
   }
 
-  // A pool runs all that it was given, so the task needs no pointer that owns: with one it would be
-  // allocated each time.
-  void post(std::shared_ptr<QueuedSubscription> self) {
-    alive_while_posted_ = std::move(self);
-    pool_->post([this] { workAWhile(); });
+  // The message is in the queue and waits there for the next one where this throws.
+  void startOnPool() {
+    std::shared_ptr<QueuedSubscription> self = this->shared_from_this();
+    try {
+      post(self);
+    } catch (...) {
+      queue_.stayIdle();
+      throw;
+    }
   }
 
-  // Then others have their turn.
+  // A pool runs all that it was given, so the task needs no pointer that owns: with one it would be
+  // allocated each time. Where it throws, nothing is posted, and `self` is as it was.
+  void post(std::shared_ptr<QueuedSubscription>& self) {
+    alive_while_posted_ = std::move(self);
+    try {
+      pool_->post([this] { workAWhile(); });
+    } catch (...) {
+      self = std::move(alive_while_posted_);
+      throw;
+    }
+  }
+
   void workAWhile() {
     std::shared_ptr<QueuedSubscription> self = std::move(alive_while_posted_);
     const Consuming consuming(&queue_);
+    while (!workOnce()) {
+      try {
+        return post(self);  // others have their turn
+      } catch (...) {       // there is no memory for it: they have it later
+      }
+    }
+  }
+
+  // True where nothing is left to do.
+  bool workOnce() {
     CallbackThread& thread = errors_->thread();
     Item item;
     for (int i = 0; i < 32; ++i) {
       if (queue_.tryPop(item)) {
         deliver(std::move(item), thread);
       } else if (queue_.goIdle()) {
-        return;
+        return true;
       }
     }
-    post(std::move(self));
+    return false;
   }
 
   // What the callback gives up ends with it, and not when the thread does.
