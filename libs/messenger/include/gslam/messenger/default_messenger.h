@@ -61,7 +61,8 @@ inline void endDefaultMessenger() {
 /// that was built with hidden visibility has one of its own until its host calls
 /// setDefaultMessenger() in it. At the end of the program its subscriptions end, and what waits is
 /// dropped; whoever asks after that gets one on which nobody listens. A child of fork() has a new
-/// one. Thread-safe.
+/// one, and its exit() leaves the parent's alone; but it destroys static subscribers and messengers
+/// of the parent, so where there are such it must end with _exit(). Thread-safe.
 inline Messenger defaultMessenger() {
   detail::DefaultMessenger& ours = detail::DefaultMessenger::ofProcess();
   detail::endDefaultMessenger();
@@ -70,7 +71,8 @@ inline Messenger defaultMessenger() {
 }
 
 /// Makes another one the default, for who asks from now on: how a host hands its own over to a
-/// plugin. It is not shut down at the end. Thread-safe.
+/// plugin, which must have been built with the same minor version of messenger. It is not shut down
+/// at the end. Thread-safe.
 inline void setDefaultMessenger(const Messenger& messenger) {
   detail::DefaultMessenger& ours = detail::DefaultMessenger::ofProcess();
   detail::endDefaultMessenger();
