@@ -2,23 +2,29 @@
 #include <gslam/messenger.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <future>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace {
 
+using gslam::Delivery;
 using gslam::inOwnThread;
 using gslam::Messenger;
 using gslam::onExecutor;
+using gslam::Pending;
 using gslam::Publisher;
 using gslam::SubscribeOptions;
 using gslam::Subscriber;
 
 std::vector<SubscribeOptions> allDeliveries() {
-  return {SubscribeOptions(), inOwnThread(), onExecutor(std::make_shared<gslam::ThreadPool>(2))};
+  return {SubscribeOptions(), inOwnThread(), onExecutor(std::make_shared<gslam::ThreadPool>(2)),
+          onExecutor(std::make_shared<gslam::ThreadPool>(1))};
 }
 
 TEST(Callback, MayPublishSubscribeAndLookAround) {
@@ -62,7 +68,7 @@ TEST(Callback, MayEndItsOwnSubscription) {
   }
 }
 
-TEST(Callback, MayEndOthers) {
+TEST(Callback, MayEndOthersBeforeTheirTurn) {
   const Messenger messenger;
   const auto publisher = messenger.advertise<int>("n");
   int calls = 0;
@@ -71,6 +77,53 @@ TEST(Callback, MayEndOthers) {
   second = messenger.subscribe<int>("n", [&](const int&) { ++calls; });
   publisher.publish(1);
   EXPECT_EQ(calls, 0);  // ended before its turn
+}
+
+// B has a message that waits, on an executor for the very worker that ends B.
+TEST(Callback, MayEndOthers) {
+  for (const SubscribeOptions& options : allDeliveries()) {
+    for (const Pending pending : {Pending::discard, Pending::drain}) {
+      const Messenger messenger;
+      Subscriber b;
+      std::promise<void> sent;
+      std::promise<void> done;
+      const Subscriber a = messenger.subscribe<int>("a", options, [&](const int&) {
+        if (options.delivery != Delivery::synchronous) sent.get_future().wait();
+        b.unsubscribe(pending);
+        done.set_value();
+      });
+      b = messenger.subscribe<int>("b", options, [](const int&) {});
+      messenger.publish<int>("a", 1);
+      for (int i = 0; i < 100; ++i) messenger.publish<int>("b", i);
+      sent.set_value();
+      done.get_future().wait();
+      EXPECT_EQ(messenger.advertise<int>("b").subscriberCount(), 0u);
+    }
+  }
+}
+
+// Each is in its callback when the other ends it.
+TEST(Callback, MayEndTheOneThatEndsIt) {
+  for (const SubscribeOptions& options :
+       {SubscribeOptions(), inOwnThread(), onExecutor(std::make_shared<gslam::ThreadPool>(2))}) {
+    const Messenger messenger;
+    Subscriber a;
+    Subscriber b;
+    std::atomic<int> inside{0};
+    std::promise<void> done[2];
+    const auto end = [&](Subscriber& other, std::promise<void>& its_done) {
+      ++inside;
+      while (inside < 2) std::this_thread::yield();
+      other.unsubscribe();
+      its_done.set_value();
+    };
+    a = messenger.subscribe<int>("a", options, [&](const int&) { end(b, done[0]); });
+    b = messenger.subscribe<int>("b", options, [&](const int&) { end(a, done[1]); });
+    std::thread sender([&] { messenger.publish<int>("a", 1); });
+    messenger.publish<int>("b", 1);
+    for (std::promise<void>& one : done) one.get_future().wait();
+    sender.join();
+  }
 }
 
 // Whatever the callback destroys must last until it has returned.
@@ -98,6 +151,24 @@ TEST(Callback, MayDestroyEverything) {
     publisher.publish(std::string(100, 'x'));
     EXPECT_EQ(done.get_future().get(), std::string(200, 'x'));
     EXPECT_TRUE(watched.expired());
+  }
+}
+
+TEST(Callback, WhatItGivesUpEndsWithIt) {
+  for (const SubscribeOptions& options : allDeliveries()) {
+    const Messenger messenger;
+    const auto counted = std::make_shared<int>();
+    std::atomic<long> most{0};
+    std::promise<void> done;
+    Subscriber subscriber = messenger.subscribe<int>("n", options, [&](const int& n) {
+      const Messenger local;
+      local.subscribe<int>("n", [counted](const int&) {}).keep();
+      most = std::max(most.load(), counted.use_count());
+      if (n == 99) done.set_value();
+    });
+    for (int i = 0; i < 100; ++i) messenger.publish<int>("n", i);
+    done.get_future().wait();
+    EXPECT_LE(most, 2);
   }
 }
 

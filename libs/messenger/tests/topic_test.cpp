@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+struct anonymous_vote {};  // NOLINT(readability-identifier-naming)
+
 namespace {
 
 using gslam::AnyMessage;
@@ -129,6 +131,9 @@ TEST(Types, AreEqualAcrossLibrariesByNameUnlessUnnamed) {
   struct Local {};
   EXPECT_TRUE(gslam::detail::isLocalToLibrary(typeid(Local).name()));  // in an unnamed namespace
   EXPECT_FALSE(gslam::detail::isLocalToLibrary(typeid(std::string).name()));
+  EXPECT_FALSE(gslam::detail::isLocalToLibrary(typeid(anonymous_vote).name()));
+  EXPECT_TRUE(gslam::detail::isLocalToLibrary("(anonymous namespace)::Pose"));
+  EXPECT_TRUE(gslam::detail::isLocalToLibrary("{anonymous}::Pose"));
 }
 
 TEST(Info, TellsWhoPublishesAndListens) {

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <thread>
 
 namespace {
 
@@ -78,6 +79,25 @@ bool childHasADefaultOfItsOwn() {
   return statusOfChild(child) == 7 && works(defaultMessenger()) && parents == 1000;
 }
 
+// The other thread is in defaultMessenger() again and again when children are made.
+bool childLeavesWhatOthersHoldAlone() {
+  defaultMessenger();
+  std::atomic<bool> stop{false};
+  std::thread other([&] {
+    while (!stop) defaultMessenger();
+  });
+  bool good = true;
+  for (int i = 0; i < 50 && good; ++i) {
+    good = statusOfChild([] {
+             alarm(10);
+             std::exit(7);
+           }) == 7;
+  }
+  stop = true;
+  other.join();
+  return good;
+}
+
 // --- static destruction, in any order
 
 int received = 0;
@@ -137,6 +157,7 @@ struct Scenario {
 constexpr Scenario kScenarios[] = {
     {"child_leaves_messengers_alone", childLeavesMessengersAlone},
     {"child_makes_its_own", childMakesItsOwn},
+    {"child_leaves_what_others_hold_alone", childLeavesWhatOthersHoldAlone},
     {"child_has_a_default_of_its_own", childHasADefaultOfItsOwn},
     {"late_one_speaks_to_nobody", lateOneSpeaksToNobody},
     {"early_one_is_heard", earlyOneIsHeard},

@@ -34,9 +34,7 @@ class Inbox {
   template <class Rep, class Period>
   std::shared_ptr<const T> waitFor(const std::chrono::duration<Rep, Period>& time) {
     std::shared_ptr<const T> message;
-    if (subscription_) {
-      subscription_->queue().waitPopUntil(message, std::chrono::steady_clock::now() + time);
-    }
+    if (subscription_) subscription_->queue().waitPopFor(message, time);
     return message;
   }
 
@@ -51,9 +49,9 @@ class Inbox {
     return latest;
   }
 
-  /// Number of messages that wait.
-  std::size_t waiting() const { return subscriber_.waiting(); }
-  /// Number of messages that were dropped.
+  /// Number of messages that wait; after the end those that are to be drained.
+  std::size_t waiting() const { return subscription_ ? subscription_->counts().waiting : 0; }
+  /// Number of messages that were dropped, also after the end.
   std::uint64_t dropped() const { return subscriber_.dropped(); }
   /// Name of the topic; empty where there is none.
   std::string topic() const { return subscriber_.topic(); }

@@ -37,7 +37,7 @@ struct OtherName {
 /// What Messenger::advertise() keeps of messages.
 enum class Latch {
   off,  ///< nothing
-  on    ///< the last message, which late subscribers get first
+  on    ///< the last message, which late subscribers get first, before subscribe() returns
 };
 
 /// Connects publishers and subscribers by the name and type of a topic.
@@ -102,6 +102,8 @@ class Messenger {
   /// @}
 
   /// Calls `callback` in the publisher's thread with each message that is published from now on.
+  /// On a latched topic this calls it, too, and returns when no newer message was latched
+  /// meanwhile: late, where messages come faster than the callback handles them.
   /// @param topic     its name
   /// @param callback  takes `const T&` (as a generic lambda does) or `std::shared_ptr<const T>`; it
   ///                  may be called by several threads at once, if several publish
@@ -162,8 +164,7 @@ class Messenger {
   /// Asks a service and waits for the answer. A service that answers in the caller's thread takes
   /// as long as it takes; the timeout is for others.
   /// @throws ServiceError when nobody serves it, or gives no answer in time; what the handler
-  /// threw;
-  ///         TypeMismatch and ArgumentError as advertise()
+  ///         threw; TypeMismatch and ArgumentError as advertise()
   template <class Request, class Response, class Rep, class Period>
   Response call(const std::string& service, Request request,
                 const std::chrono::duration<Rep, Period>& timeout) const;

@@ -56,7 +56,9 @@ class SubscribeOptions {
     return withQueue(count, Overflow::drop_newest);
   }
   /// The queue holds `count` messages; publish() waits while it is full, but not in a callback of
-  /// this same subscriber, which would wait for itself.
+  /// this same subscriber, which would wait for itself. A callback on an executor that waits so for
+  /// another subscriber on the same executor holds a worker: when all do, they wait for ever. Give
+  /// one of the two a thread of its own, or another executor.
   /// @throws ArgumentError for 0
   SubscribeOptions blockPublisher(std::size_t count) const {
     return withQueue(count, Overflow::block_publisher);

@@ -23,7 +23,10 @@ class Messenger;
 ///
 /// When the end returns, the callback does not run and will not run any more: it waits for a
 /// callback that another thread is in, so do not end a subscription while you hold a lock that its
-/// callback takes. Only from inside of a callback, be it its own or another, it does not wait.
+/// callback takes. Only from inside of a callback, be it its own or another, it does not wait. The
+/// same holds where Messenger::shutDown() ends the subscription at the same time.
+///
+/// The subscriber of a pattern holds all topics of the messenger, as the messenger does.
 class Subscriber {
  public:
   /// Subscribed to nothing.
@@ -36,6 +39,7 @@ class Subscriber {
     hub_.swap(ended.hub_);
     topic_.swap(ended.topic_);
     subscription_.swap(ended.subscription_);
+    dropped_.swap(ended.dropped_);
     return *this;
   }
   ~Subscriber() { unsubscribe(); }
@@ -51,21 +55,17 @@ class Subscriber {
     // Taken out first: the end of the callback may destroy this object, which it may own.
     const std::shared_ptr<detail::Topic> topic = std::move(topic_);
     const std::shared_ptr<detail::Subscription> subscription = std::move(subscription_);
-    const std::shared_ptr<detail::Hub> hub = hub_.lock();
-    if (!subscription) return;
-    if (topic) {
-      detail::Hub::end(subscription, &topic, 1, pending);
-    } else if (hub) {
-      hub->endPattern(subscription, pending);
-    } else {
-      detail::Hub::end(subscription, nullptr, 0, pending);
-    }
+    const std::shared_ptr<detail::Hub> hub = std::move(hub_);
+    if (topic) detail::Hub::end(subscription, &topic, 1, pending);
+    if (hub) hub->endPattern(subscription, pending);
   }
 
   /// Lets the subscription live as long as the topic, without this handle.
   void keep() noexcept {
+    const std::shared_ptr<detail::Hub> hub = std::move(hub_);
     const std::shared_ptr<detail::Topic> topic = std::move(topic_);
     const std::shared_ptr<detail::Subscription> subscription = std::move(subscription_);
+    dropped_.reset();
   }
 
   /// Whether the subscription is in force.
@@ -76,18 +76,22 @@ class Subscriber {
 
   /// Messages that wait in its queue; 0 for a synchronous one.
   std::size_t waiting() const { return subscription_ ? subscription_->counts().waiting : 0; }
-  /// Messages that were dropped because its queue was full, or at its end.
-  std::uint64_t dropped() const { return subscription_ ? subscription_->counts().dropped : 0; }
+  /// Messages that were dropped because its queue was full, or at its end; also after that.
+  std::uint64_t dropped() const { return dropped_ ? dropped_->load() : 0; }
 
  private:
   friend class Messenger;
-  Subscriber(const std::shared_ptr<detail::Hub>& hub, std::shared_ptr<detail::Topic> topic,
-             std::shared_ptr<detail::Subscription> subscription)
-      : hub_(hub), topic_(std::move(topic)), subscription_(std::move(subscription)) {}
+  Subscriber(std::shared_ptr<detail::Topic> topic,
+             const std::shared_ptr<detail::Subscription>& subscription)
+      : topic_(std::move(topic)), subscription_(subscription), dropped_(subscription->dropped()) {}
+  Subscriber(std::shared_ptr<detail::Hub> hub,
+             const std::shared_ptr<detail::Subscription>& subscription)
+      : hub_(std::move(hub)), subscription_(subscription), dropped_(subscription->dropped()) {}
 
-  std::weak_ptr<detail::Hub> hub_;
+  std::shared_ptr<detail::Hub> hub_;      // of a pattern, which may be in any topic; else null
   std::shared_ptr<detail::Topic> topic_;  // null for a pattern
   std::shared_ptr<detail::Subscription> subscription_;
+  detail::SharedCount dropped_;  // null where nothing can be dropped
 };
 
 }  // namespace v1

@@ -37,6 +37,7 @@ class Topic final : public Mortal {
 
   const std::string& name() const noexcept { return *facts_.name; }
   const PayloadType& type() const noexcept { return facts_.type; }
+  const ErrorSink& errors() const noexcept { return *errors_; }
 
   /// A topic may lose its last owner in one of its own callbacks: it then ends after them.
   static std::shared_ptr<Topic> make(const std::string& name, PayloadType type,
@@ -102,10 +103,8 @@ class Topic final : public Mortal {
     if (was_there) --subscription->places;
     return was_there;
   }
-  /// Waits for the publishers that are delivering just now; not in a callback.
-  void waitForPublishers() {
-    if (!errors_->thread().isCalling()) list_.waitForReaders();
-  }
+  /// Waits for the publishers that are delivering just now. Not to be called in a callback.
+  void waitForPublishers() { list_.waitForReaders(); }
 
   /// Tells those who want to know.
   void tell(TopicChange::Kind kind) const {
@@ -149,7 +148,7 @@ class Topic final : public Mortal {
         while (next != end) {
           Subscription& one = **next;
           ++next;  // who throws has had his turn
-          if (one.is_active.load(std::memory_order_acquire)) one.receive(letter, facts_);
+          if (one.is_active.load()) one.receive(letter, facts_);
         }
       });
     }

@@ -40,15 +40,20 @@ class CallbackThread {
   bool isCalling() const noexcept { return depth_ > 0; }
   void enter() noexcept { ++depth_; }
   void leave() noexcept {
-    if (--depth_ == 0 && graves_ != nullptr) bury();
+    // Before it has left: what was given up in a callback ends without waiting for others.
+    if (depth_ == 1 && graves_ != nullptr) bury();
+    --depth_;
   }
 
   /// Destroys an object after the callbacks of this thread have returned, which may be inside of
   /// it; at once where there are none.
   void destroyLater(Mortal* object) noexcept {
+    if (depth_ == 0) {
+      delete object;
+      return;
+    }
     object->next_ = graves_;
     graves_ = object;
-    if (depth_ == 0) bury();
   }
 
   /// This thread. A library with hidden visibility has another view of it than its host, so what

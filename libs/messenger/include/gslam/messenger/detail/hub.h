@@ -5,6 +5,7 @@
 #include <gslam/messenger/detail/topic_name.h>
 #include <gslam/messenger/topic.h>
 
+#include <algorithm>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -73,7 +74,7 @@ class Hub {
   /// @throws TypeMismatch where it carries another type
   std::shared_ptr<Topic> topic(const std::string& name, const PayloadType& type) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (is_shut_down_) throw Error("the messenger was shut down: nothing can be joined to it");
+    refuseIfShutDown();
     std::shared_ptr<Topic> found = topics_.find(name);
     if (!found) found = makeTopic(name, type);
     if (found->type() != type) throw TypeMismatch(name, found->type().name(), type.name());
@@ -93,7 +94,7 @@ class Hub {
   /// @throws TypeMismatch where it has other types
   std::shared_ptr<Topic> service(const std::string& name, const PayloadType& type) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (is_shut_down_) throw Error("the messenger was shut down: nothing can be joined to it");
+    refuseIfShutDown();
     std::shared_ptr<Topic> found = services_.find(name);
     if (!found) {
       found = Topic::make(name, type, errors_, nullptr);
@@ -108,6 +109,13 @@ class Hub {
     const std::lock_guard<std::mutex> lock(mutex_);
     const std::shared_ptr<Topic> found = services_.find(name);
     return found != nullptr && !found->subscriptions().empty();
+  }
+
+  /// For who has just joined a subscription: a shutdown that did not see it has begun before.
+  /// @throws Error after a shutdown
+  void refuseAfterShutDown() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    refuseIfShutDown();
   }
 
   /// Ends all subscriptions, and refuses more.
@@ -138,10 +146,12 @@ class Hub {
   }
 
   /// Adds one who listens to all topics that match its pattern, now and later.
+  /// @throws Error after a shutdown, also one that comes meanwhile
   void addPattern(const std::shared_ptr<Subscription>& subscription) {
     Topics matching;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
+      refuseIfShutDown();
       patterns_.push_back(subscription);
       ++subscription->places;
       for (const std::shared_ptr<Topic>& one : topics_.all()) {
@@ -152,6 +162,7 @@ class Hub {
       one->add(subscription);
       one->tell(TopicChange::subscriber_came);
     }
+    refuseAfterShutDown();
   }
 
   /// Ends a subscription to a pattern.
@@ -170,22 +181,34 @@ class Hub {
     end(subscription, all.data(), all.size(), pending);
   }
 
-  /// Takes a subscription out of those of the topics that it is in, and ends it.
-  /// @param topics  `count` of them
+  /// Takes a subscription out of those of the topics that it is in, and ends it. Several may do so
+  /// at once: each waits for its callbacks, unless he is in a callback himself.
+  /// @param topics  `count` of them, one at least
   static void end(const std::shared_ptr<Subscription>& subscription,
                   const std::shared_ptr<Topic>* topics, std::size_t count, Pending pending) {
-    if (!subscription->is_active.exchange(false)) return;
+    const bool is_first = subscription->is_active.exchange(false);
     Topics left;
     for (std::size_t i = 0; i < count; ++i) {
       if (topics[i]->remove(subscription)) left.push_back(topics[i]);
     }
-    subscription->close(pending);  // lets publishers go that wait for room
-    for (const std::shared_ptr<Topic>& one : left) one->waitForPublishers();
-    subscription->finish();
+    if (is_first) subscription->close(pending);  // lets publishers go that wait for room
+    if (!topics[0]->errors().thread().isCalling()) {
+      for (std::size_t i = 0; i < count; ++i) {
+        // who is not the first does not know where it was taken out
+        const bool was_in =
+            is_first ? isAmong(left, topics[i]) : matches(subscription->topic(), topics[i]->name());
+        if (was_in) topics[i]->waitForPublishers();
+      }
+      subscription->finish();
+    }
     for (const std::shared_ptr<Topic>& one : left) one->tell(TopicChange::subscriber_left);
   }
 
  private:
+  static bool isAmong(const Topics& topics, const std::shared_ptr<Topic>& topic) {
+    return std::find(topics.begin(), topics.end(), topic) != topics.end();
+  }
+
   // What the messenger tells of itself must be asked for: who records all topics does not change
   // what there is to record.
   static bool matches(const std::string& pattern, const std::string& name) {
@@ -193,6 +216,10 @@ class Hub {
     const bool is_ours = name.compare(0, ours.size(), ours) == 0;
     return matchesPattern(pattern, name) &&
            (!is_ours || pattern.compare(0, ours.size(), ours) == 0);
+  }
+
+  void refuseIfShutDown() const {
+    if (is_shut_down_) throw Error("the messenger was shut down: nothing can be joined to it");
   }
 
   std::shared_ptr<Topic> makeTopic(const std::string& name, const PayloadType& type) {

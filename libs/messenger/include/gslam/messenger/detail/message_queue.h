@@ -4,6 +4,7 @@
 
 #include <gslam/base/detail/ring.h>
 #include <gslam/messenger/detail/brief_wait.h>
+#include <gslam/messenger/detail/wait_time.h>
 #include <gslam/messenger/options.h>
 
 #include <atomic>
@@ -11,6 +12,8 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -25,12 +28,15 @@ struct QueueCounts {
   std::size_t waiting;    ///< that are there now
 };
 
+/// A count that outlives its queue.
+using SharedCount = std::shared_ptr<std::atomic<std::uint64_t>>;
+
 /// Messages from any number of publishers to one consumer.
 template <class Item>
 class MessageQueue {
  public:
   explicit MessageQueue(const SubscribeOptions& options)
-      : capacity_(options.capacity), overflow_(options.overflow), spin_(options.spin) {}
+      : capacity_(options.capacity), overflow_(options.overflow), spin_(waitTime(options.spin)) {}
 
   /// Lets a message wait, or drops one, as the options say. True where a consumer that had nothing
   /// to do should be started.
@@ -42,7 +48,7 @@ class MessageQueue {
     if (is_closed_ || (is_full && overflow_ == Overflow::drop_newest)) return drop(item, dropped);
     if (is_full && overflow_ == Overflow::drop_oldest) {
       dropped = ring_.pop();
-      ++dropped_;
+      ++*dropped_;
     }
     ring_.push(std::move(item));
     size_.store(ring_.size(), std::memory_order_relaxed);
@@ -69,19 +75,24 @@ class MessageQueue {
   }
 
   /// All that waits, in exchange for an empty ring; false when closed and empty. For queues without
-  /// bound: what was taken does not count any more.
+  /// bound: what was taken has no place in them. The consumer says how much of it still waits.
   bool waitPopAll(Ring<Item>& items) {
     lookAround();
     std::unique_lock<std::mutex> lock(mutex_);
     waitForMessage(lock);
     ring_.swap(items);
     size_.store(0, std::memory_order_relaxed);
+    setTaken(items.size());
     return !items.empty();
   }
 
+  /// How many of those that waitPopAll() gave are still to be delivered.
+  void setTaken(std::size_t count) noexcept { taken_.store(count, std::memory_order_relaxed); }
+
   /// The same as waitPop(), but no longer than that; false also where none came.
-  template <class Clock, class Duration>
-  bool waitPopUntil(Item& item, const std::chrono::time_point<Clock, Duration>& end) {
+  template <class Rep, class Period>
+  bool waitPopFor(Item& item, const std::chrono::duration<Rep, Period>& time) {
+    const auto end = std::chrono::steady_clock::now() + waitTime(time);
     std::unique_lock<std::mutex> lock(mutex_);
     ++sleepers_;
     not_empty_.wait_until(lock, end, [this] { return !ring_.empty() || is_closed_; });
@@ -97,7 +108,13 @@ class MessageQueue {
     idle_.notify_all();
     return true;
   }
-  /// Waits until goIdle() was true and nothing waits.
+  /// The consumer could not be started: what waits does so until the next message starts it.
+  void stayIdle() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_busy_ = false;
+    idle_.notify_all();
+  }
+  /// Waits until goIdle() was true and nothing waits, or the consumer could not be started.
   void waitUntilIdle() {
     std::unique_lock<std::mutex> lock(mutex_);
     idle_.wait(lock, [this] { return !is_busy_; });
@@ -110,7 +127,7 @@ class MessageQueue {
     is_closed_ = true;
     is_closing_.store(true, std::memory_order_relaxed);
     if (pending == Pending::discard) {
-      dropped_ += ring_.size();
+      *dropped_ += ring_.size();
       ring_.swap(dropped);
       size_.store(0, std::memory_order_relaxed);
     }
@@ -119,14 +136,13 @@ class MessageQueue {
   }
 
   /// Messages that were taken out and not delivered.
-  void countDropped(std::size_t count) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    dropped_ += count;
-  }
+  void countDropped(std::size_t count) noexcept { *dropped_ += count; }
+  /// Goes on after the queue.
+  const SharedCount& dropped() const noexcept { return dropped_; }
   bool isBounded() const noexcept { return capacity_ != std::numeric_limits<std::size_t>::max(); }
   QueueCounts counts() const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return {dropped_, ring_.size()};
+    return {dropped_->load(), ring_.size() + taken_.load(std::memory_order_relaxed)};
   }
 
   /// Which queue this thread delivers from just now.
@@ -149,7 +165,7 @@ class MessageQueue {
  private:
   bool drop(Item& item, Item& dropped) {
     dropped = std::move(item);
-    ++dropped_;
+    ++*dropped_;
     return false;
   }
 
@@ -201,7 +217,9 @@ class MessageQueue {
 
   const std::size_t capacity_;
   const Overflow overflow_;
-  const std::chrono::microseconds spin_;
+  const std::chrono::nanoseconds spin_;
+  const SharedCount dropped_ = std::make_shared<std::atomic<std::uint64_t>>(0);
+  std::atomic<std::size_t> taken_{0};    // by waitPopAll(), and still to be delivered
   BriefWait wait_{false};                // of a consumer with a thread of its own
   bool was_short_ = false;               // so was its last sleep: the wait may be better
   BriefWait publishers_wait_{true};      // for room
@@ -212,7 +230,6 @@ class MessageQueue {
   std::condition_variable not_full_;
   std::condition_variable idle_;
   Ring<Item> ring_;
-  std::uint64_t dropped_ = 0;
   std::size_t waiting_publishers_ = 0;
   std::size_t sleepers_ = 0;  // consumers that wait for not_empty_
   bool is_busy_ = false;      // a consumer on an executor is at work, or about to be

@@ -96,8 +96,9 @@ Subscriber Messenger::subscribe(const std::string& topic, const SubscribeOptions
   const std::shared_ptr<detail::Topic> found = find<T>(topic);
   const std::shared_ptr<detail::Subscription> subscription =
       makeSubscription<detail::TypedPayload<T>>(options, found->name(), std::move(callback));
-  Subscriber subscriber(hub_, found, subscription);
+  Subscriber subscriber(found, subscription);
   found->add(subscription);
+  hub_->refuseAfterShutDown();
   found->tell(TopicChange::subscriber_came);
   return subscriber;
 }
@@ -114,7 +115,7 @@ Subscriber Messenger::subscribeAny(const std::string& pattern, const SubscribeOp
                                    F callback) const {
   const std::shared_ptr<detail::Subscription> subscription = makeSubscription<detail::AnyPayload>(
       options, detail::topicName(space_, pattern, true), std::move(callback));
-  Subscriber subscriber(hub_, nullptr, subscription);
+  Subscriber subscriber(hub_, subscription);
   hub_->addPattern(subscription);
   return subscriber;
 }
@@ -124,8 +125,9 @@ Inbox<T> Messenger::inbox(const std::string& topic, const SubscribeOptions& opti
   using Subscription = detail::InboxSubscription<detail::TypedPayload<T>>;
   const std::shared_ptr<detail::Topic> found = find<T>(topic);
   const auto subscription = std::make_shared<Subscription>(options, found->name());
-  Subscriber subscriber(hub_, found, subscription);
+  Subscriber subscriber(found, subscription);
   found->add(subscription);
+  hub_->refuseAfterShutDown();
   found->tell(TopicChange::subscriber_came);
   return Inbox<T>(std::move(subscriber), subscription);
 }
@@ -143,9 +145,11 @@ Subscriber Messenger::serve(const std::string& service, const SubscribeOptions& 
       makeSubscription<detail::TypedPayload<Call>>(
           options, found->name(),
           detail::CallAnswerer<Request, Response, Handler>(std::move(handler)));
-  Subscriber server(hub_, found, subscription);
-  if (found->addOnly(subscription)) return server;
-  throw ArgumentError("service", "is \"" + found->name() + "\", which is served already");
+  Subscriber server(found, subscription);
+  if (!found->addOnly(subscription))
+    throw ArgumentError("service", "is \"" + found->name() + "\", which is served already");
+  hub_->refuseAfterShutDown();
+  return server;
 }
 
 template <class Request, class Response, class Rep, class Period>

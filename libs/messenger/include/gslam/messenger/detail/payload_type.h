@@ -33,7 +33,8 @@ struct PayloadType {
 /// those that the compiler marks with a star as local to one library.
 inline bool isLocalToLibrary(const char* name) noexcept {
   return name[0] == '*' || std::strstr(name, "_GLOBAL__N") != nullptr ||
-         std::strstr(name, "anonymous") != nullptr;
+         std::strstr(name, "{anonymous}") != nullptr ||
+         std::strstr(name, "anonymous namespace") != nullptr;  // in brackets or quotes
 }
 
 /// The same type has one type_info in a program, but where plugins are loaded each may bring its

@@ -2,6 +2,7 @@
 #ifndef GSLAM_MESSENGER_DETAIL_SERVICE_CALL_H
 #define GSLAM_MESSENGER_DETAIL_SERVICE_CALL_H
 
+#include <gslam/messenger/detail/wait_time.h>
 #include <gslam/messenger/errors.h>
 
 #include <chrono>
@@ -41,7 +42,7 @@ class ServiceAnswer {
   template <class Rep, class Period>
   Response waitFor(const std::string& service, const std::chrono::duration<Rep, Period>& time) {
     std::unique_lock<std::mutex> lock(mutex_);
-    done_.wait_for(lock, time, [this] { return is_done_; });
+    done_.wait_for(lock, waitTime(time), [this] { return is_done_; });
     is_wanted_ = false;
     if (!is_done_) throw ServiceError(service, ServiceError::timeout);
     if (error_ != nullptr) std::rethrow_exception(error_);

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <utility>
@@ -40,9 +41,12 @@ class Subscription {
   virtual void receive(AnyLetter& letter, const TopicFacts& topic) = 0;
   /// Takes no more messages; publishers that wait for room are let go.
   virtual void close(Pending) {}
-  /// Waits for callbacks, when no publisher is in receive() any more.
+  /// Waits for callbacks, when no publisher is in receive() any more. May be called several times,
+  /// and by several threads at once.
   virtual void finish() {}
   virtual QueueCounts counts() const { return {0, 0}; }
+  /// What was dropped, also after this has gone; null where nothing can be.
+  virtual SharedCount dropped() const { return nullptr; }
 
   const std::string& name() const noexcept { return name_; }
   const std::string& topic() const noexcept { return topic_; }
@@ -163,64 +167,99 @@ class QueuedSubscription final
 
   void receive(AnyLetter& letter, const TopicFacts& topic) override {
     const bool was_idle = queue_.push(Payload::take(letter, topic));
-    if (was_idle && pool_ != nullptr) post(this->shared_from_this());
+    if (was_idle && pool_ != nullptr) startOnPool();
   }
   void close(Pending pending) override {
     if (pending == Pending::discard) is_discarding_ = true;
     queue_.close(pending);
   }
   void finish() override {
-    if (queue_.isConsumer()) return;  // ends when the callback, which we are in, has returned
+    if (queue_.isConsumer()) return;  // a message that ends it when it goes
+    const std::lock_guard<std::mutex> lock(finish_mutex_);
     if (thread_.joinable()) return thread_.join();
+    if (pool_ == nullptr) return;
     queue_.waitUntilIdle();
-    pool_.reset();  // nobody posts any more
+    queue_.close(Pending::discard);  // where the pool took no task, something may be left
+    pool_.reset();                   // nobody posts any more
   }
   QueueCounts counts() const override { return queue_.counts(); }
+  SharedCount dropped() const override { return queue_.dropped(); }
 
  private:
   using Consuming = typename MessageQueue<Item>::Consuming;
 
   void work() {
     const Consuming consuming(&queue_);
-    const Delivering delivering(errors_->thread());
+    CallbackThread& thread = errors_->thread();
     if (queue_.isBounded()) {
       Item item;
-      while (queue_.waitPop(item)) deliver(std::move(item));
+      while (queue_.waitPop(item)) deliver(std::move(item), thread);
       return;
     }
     Ring<Item> items;
     while (queue_.waitPopAll(items)) {
-      while (!items.empty() && !is_discarding_) deliver(items.pop());
+      while (!items.empty() && !is_discarding_) {
+        queue_.setTaken(items.size() - 1);
+        deliver(items.pop(), thread);
+      }
       if (items.empty()) continue;
       queue_.countDropped(items.size());
+      queue_.setTaken(0);
       Ring<Item>().swap(items);
     }
   }
 
-  // A pool runs all that it was given, so the task needs no pointer that owns: with one it would be
-  // allocated each time.
-  void post(std::shared_ptr<QueuedSubscription> self) {
-    alive_while_posted_ = std::move(self);
-    pool_->post([this] { workAWhile(); });
+  // The message is in the queue and waits there for the next one where this throws.
+  void startOnPool() {
+    std::shared_ptr<QueuedSubscription> self = this->shared_from_this();
+    try {
+      post(self);
+    } catch (...) {
+      queue_.stayIdle();
+      throw;
+    }
   }
 
-  // Then others have their turn.
+  // A pool runs all that it was given, so the task needs no pointer that owns: with one it would be
+  // allocated each time. Where it throws, nothing is posted, and `self` is as it was.
+  void post(std::shared_ptr<QueuedSubscription>& self) {
+    alive_while_posted_ = std::move(self);
+    try {
+      pool_->post([this] { workAWhile(); });
+    } catch (...) {
+      self = std::move(alive_while_posted_);
+      throw;
+    }
+  }
+
   void workAWhile() {
     std::shared_ptr<QueuedSubscription> self = std::move(alive_while_posted_);
     const Consuming consuming(&queue_);
-    const Delivering delivering(errors_->thread());
+    while (!workOnce()) {
+      try {
+        return post(self);  // others have their turn
+      } catch (...) {       // there is no memory for it: they have it later
+      }
+    }
+  }
+
+  // True where nothing is left to do.
+  bool workOnce() {
+    CallbackThread& thread = errors_->thread();
     Item item;
     for (int i = 0; i < 32; ++i) {
       if (queue_.tryPop(item)) {
-        deliver(std::move(item));
+        deliver(std::move(item), thread);
       } else if (queue_.goIdle()) {
-        return;
+        return true;
       }
     }
-    post(std::move(self));
+    return false;
   }
 
-  void deliver(Item taken) {
+  // What the callback gives up ends with it, and not when the thread does.
+  void deliver(Item taken, CallbackThread& thread) {
+    const Delivering delivering(thread);
     const Item item = std::move(taken);
     errors_->guard(topic(), [&] { Payload::call(callback_, item); });
   }
@@ -231,6 +270,7 @@ class QueuedSubscription final
   F callback_;
   const std::shared_ptr<ErrorSink> errors_;
   std::atomic<bool> is_discarding_{false};
+  std::mutex finish_mutex_;  // who ends it changes thread_ and pool_
   std::thread thread_;
 };
 
@@ -246,6 +286,7 @@ class InboxSubscription final : public Subscription {
   }
   void close(Pending pending) override { queue_.close(pending); }
   QueueCounts counts() const override { return queue_.counts(); }
+  SharedCount dropped() const override { return queue_.dropped(); }
   MessageQueue<Item>& queue() noexcept { return queue_; }
 
  private:
