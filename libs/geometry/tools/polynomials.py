@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Make the coefficients in gslam/geometry/detail/{stumpff,half_angle,arctangent,exponential}.h, and their error bounds.
+"""Make the coefficients in gslam/geometry/detail/{stumpff,arctangent,exponential}.h, and their error bounds.
 
 Each function f is entire, or analytic far beyond its interval, and is replaced by f(0) + x r(x): the constant is exact,
 so nothing changes at small x. r is the polynomial (for the arctangent the quotient of two) that meets (f(x) - f(0)) / x
