@@ -25,7 +25,7 @@ set(GSLAM_TEST_STANDARD "" CACHE STRING "C++ standard of the tests; default: wha
 
 if(GSLAM_SANITIZE)
   add_compile_options(-fsanitize=${GSLAM_SANITIZE} -fno-sanitize-recover=all
-    -fno-omit-frame-pointer -g)
+    -fno-omit-frame-pointer -g1)
   add_link_options(-fsanitize=${GSLAM_SANITIZE})
 endif()
 if(GSLAM_BUILD_FUZZ)
