@@ -34,11 +34,16 @@
 #endif
 
 /// @def GSLAM_ALWAYS_INLINE
-/// Before a function that is small once its arguments are known, which compilers cannot see.
+/// Before a function that is small once its arguments are known, which compilers cannot see. Without
+/// optimisation, and under the address sanitizer, they are not known, and it is a function like others.
 /// @def GSLAM_COLD
 /// Before a function for rare cases, which stays out of line, so that the usual case is small.
 #if defined(__GNUC__) || defined(__clang__)
+#if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)
 #define GSLAM_ALWAYS_INLINE inline __attribute__((always_inline))
+#else
+#define GSLAM_ALWAYS_INLINE inline
+#endif
 #define GSLAM_COLD __attribute__((noinline, cold))
 #else
 #define GSLAM_ALWAYS_INLINE inline
