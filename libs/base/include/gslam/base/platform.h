@@ -34,8 +34,9 @@
 #endif
 
 /// @def GSLAM_ALWAYS_INLINE
-/// Before a function that is small once its arguments are known, which compilers cannot see. Without
-/// optimisation, and under the address sanitizer, they are not known, and it is a function like others.
+/// Before a function that is small once its arguments are known, which compilers cannot see.
+/// Without optimisation, and under the address sanitizer, they are not known, and it is a function
+/// like others.
 /// @def GSLAM_COLD
 /// Before a function for rare cases, which stays out of line, so that the usual case is small.
 #if defined(__GNUC__) || defined(__clang__)
@@ -69,8 +70,8 @@
 /// 1 where the compiler has vector types of 128 bits as an extension of the language, and the
 /// processor always has the registers, else 0.
 /// @def GSLAM_HAS_FMA
-/// 1 where all that is compiled may use fused multiply-add instructions (-mfma, -march=native), else
-/// 0.
+/// 1 where all that is compiled may use fused multiply-add instructions (-mfma, -march=native),
+/// else 0.
 #if GSLAM_X86 || GSLAM_ARM64
 #define GSLAM_HAS_VECTORS 1
 #else
