@@ -20,8 +20,8 @@ int main() {
   const gslam::Camera pinhole =
       gslam::Camera::fromParameters("pinhole", 640, 480, {250, 250, 319.5, 239.5});
   const gslam::Undistorter undistorter(fisheye, pinhole);
-  const std::vector<std::uint8_t> image(512 * 512, 100);
-  std::vector<std::uint8_t> straight(640 * 480);
+  const std::vector<std::uint8_t> image(std::size_t(512) * 512, 100);
+  std::vector<std::uint8_t> straight(std::size_t(640) * 480);
   undistorter.apply(gslam::ImageSpan<const std::uint8_t>::dense(image.data(), 512, 512),
                     gslam::ImageSpan<std::uint8_t>::dense(straight.data(), 640, 480));
   std::cout << "the middle is " << int(straight[240 * 640 + 320]) << "\n";

@@ -7,7 +7,6 @@
 
 namespace {
 
-using gslam::Mat;
 using gslam::SE3;
 using gslam::SIM3;
 using gslam::SO3;

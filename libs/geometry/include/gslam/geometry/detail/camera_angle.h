@@ -32,7 +32,8 @@ inline double angleFromAxis(double r, double z) noexcept {
   const double depth = std::fabs(z);
   const bool is_steep = r > depth;
   const double small = is_steep ? depth : r, large = is_steep ? r : depth;
-  const int k = static_cast<int>(8 * (small / large) + 0.5);
+  const int k =
+      static_cast<int>(8 * (small / large) + 0.5);  // NOLINT(bugprone-incorrect-roundings)
   const double t0 = 0.125 * k;
   const double u = (small - t0 * large) / (large + t0 * small);
   const double s = u * u;

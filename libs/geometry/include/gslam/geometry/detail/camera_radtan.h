@@ -136,7 +136,8 @@ class RadtanDistortion {
 
   // Moves by `step` or by the largest half, quarter ... of it that lowers the miss.
   bool improve(const Vec<T, 2>& target, const Vec<T, 2>& step, State& s) const noexcept {
-    for (T factor = 1; factor > T(1e-5); factor /= 2) {
+    T factor = 1;
+    for (int halvings = 0; halvings < 17; ++halvings, factor /= 2) {
       State candidate;
       if (!look(target, s.point - factor * step, candidate)) continue;
       if (!(candidate.miss.squaredNorm() < s.miss.squaredNorm())) continue;

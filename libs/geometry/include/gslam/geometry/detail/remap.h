@@ -70,8 +70,8 @@ void remapPixels(const RemapRow& row, const RemapSource<T>& source, T fill, T* t
       for (int c = 0; c < kChannels; ++c) out[c] = fill;
       continue;
     }
-    const T* const in =
-        source.data + row.xy[2 * i + 1] * source.stride + std::ptrdiff_t(row.xy[2 * i]) * kChannels;
+    const std::int16_t* const xy = row.xy + 2 * std::ptrdiff_t(i);
+    const T* const in = source.data + xy[1] * source.stride + std::ptrdiff_t(xy[0]) * kChannels;
     const unsigned fx = row.fraction[i] & 0xFFU, fy = row.fraction[i] >> 8U;
     for (int c = 0; c < kChannels; ++c) {
       out[c] = interpolate(in[c], in[c + kChannels], in[source.stride + c],
@@ -134,7 +134,7 @@ inline __m128i remapMean(__m128i pixels, __m128i weights_x, __m128i weights_y) {
 template <int k>
 __m128i remapInsert(__m128i pixels, const RemapRow& row, const RemapSource<std::uint8_t>& source,
                     int i) {
-  const std::int16_t* const xy = row.xy + 2 * (i + k);
+  const std::int16_t* const xy = row.xy + 2 * std::ptrdiff_t(i + k);
   const std::uint8_t* const at = source.data + xy[1] * source.stride + xy[0];
   std::uint16_t upper, lower;
   std::memcpy(&upper, at, 2);
@@ -173,8 +173,9 @@ inline void remapSse4(const RemapRow& row, const RemapSource<std::uint8_t>& sour
 template <int kChannels>
 void remapColourPixel(const RemapRow& row, const RemapSource<std::uint8_t>& source,
                       std::uint8_t* target, int i, __m128i order) {
+  const std::int16_t* const xy = row.xy + 2 * std::ptrdiff_t(i);
   const std::uint8_t* const at =
-      source.data + row.xy[2 * i + 1] * source.stride + std::ptrdiff_t(row.xy[2 * i]) * kChannels;
+      source.data + xy[1] * source.stride + std::ptrdiff_t(xy[0]) * kChannels;
   const __m128i upper = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(at));
   const __m128i lower = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(at + source.stride));
   const __m128i fraction = _mm_set1_epi32(row.fraction[i]);
@@ -227,7 +228,8 @@ inline void remapAvx2(const RemapRow& row, const RemapSource<std::uint8_t>& sour
       continue;
     }
     const int i = block * kRemapBlock;
-    const __m256i xy = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(row.xy + 2 * i));
+    const __m256i xy =
+        _mm256_loadu_si256(reinterpret_cast<const __m256i*>(row.xy + 2 * std::ptrdiff_t(i)));
     const __m256i x = _mm256_and_si256(xy, pick_y);
     const __m256i at = _mm256_add_epi32(_mm256_mullo_epi32(_mm256_srli_epi32(xy, 16), stride), x);
     const __m256i upper = _mm256_i32gather_epi32(upper_row, at, 1);
