@@ -23,25 +23,26 @@ void* allocate(std::size_t size) {
 
 }  // namespace
 
-void* operator new(std::size_t size) {
+// Out of line, or g++ takes free() and operator new for a pair that does not match.
+GSLAM_COLD void* operator new(std::size_t size) {
   return allocate(size);
 }
-void* operator new[](std::size_t size) {
+GSLAM_COLD void* operator new[](std::size_t size) {
   return allocate(size);
 }
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+GSLAM_COLD void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   return std::malloc(size > 0 ? size : 1);
 }
-void operator delete(void* memory) noexcept {
+GSLAM_COLD void operator delete(void* memory) noexcept {
   std::free(memory);
 }
-void operator delete[](void* memory) noexcept {
+GSLAM_COLD void operator delete[](void* memory) noexcept {
   std::free(memory);
 }
-void operator delete(void* memory, std::size_t) noexcept {
+GSLAM_COLD void operator delete(void* memory, std::size_t) noexcept {
   std::free(memory);
 }
-void operator delete[](void* memory, std::size_t) noexcept {
+GSLAM_COLD void operator delete[](void* memory, std::size_t) noexcept {
   std::free(memory);
 }
 
