@@ -15,6 +15,18 @@
 namespace gslam {
 inline namespace v1 {
 
+namespace detail {
+
+// Whether a sum of squares is so far from both ends of T's range that no term was harmed: what
+// underflowed is below an ulp of the sum.
+template <class T>
+bool isSafeSquare(T squared) noexcept {
+  return squared >= std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon() &&
+         squared <= std::numeric_limits<T>::max();
+}
+
+}  // namespace detail
+
 /// N numbers of type T: a point, a direction, a tangent. No unit of its own.
 ///
 /// Layout: exactly `T[N]`, an aggregate, trivially copyable, aligned as T, so that it may cross
@@ -86,7 +98,7 @@ struct Vec {
   /// underflow, the elements are scaled first.
   T norm() const noexcept {
     const T squared = squaredNorm();
-    if (isSafeSquare(squared)) return std::sqrt(squared);
+    if (detail::isSafeSquare(squared)) return std::sqrt(squared);
     const T scale = largestMagnitude();
     if (!(scale > 0)) return squared;  // all zero, or NaN
     if (!(scale <= std::numeric_limits<T>::max())) return scale;
@@ -97,11 +109,11 @@ struct Vec {
   /// @throws ArgumentError when all elements are zero or one is not finite
   Vec normalized() const {
     const T squared = squaredNorm();
-    if (isSafeSquare(squared)) return *this / std::sqrt(squared);
+    if (detail::isSafeSquare(squared)) return *this / std::sqrt(squared);
     const T scale = largestMagnitude();
     const Vec scaled = *this / scale;
     const T scaled_squared = scaled.squaredNorm();
-    if (!isSafeSquare(scaled_squared)) {  // 0 / 0, inf / inf, or NaN from the start
+    if (!detail::isSafeSquare(scaled_squared)) {  // 0 / 0, inf / inf, or NaN from the start
       throw ArgumentError("vector", "has no direction, expected finite elements, not all zero");
     }
     return scaled / std::sqrt(scaled_squared);
@@ -162,13 +174,6 @@ struct Vec {
   }
 
  private:
-  // Whether a sum of squares is so far from both ends of T's range that no term was harmed: what
-  // underflowed is below an ulp of the sum.
-  static bool isSafeSquare(T squared) noexcept {
-    return squared >= std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon() &&
-           squared <= std::numeric_limits<T>::max();
-  }
-
   T largestMagnitude() const noexcept {
     T largest = 0;
     for (std::size_t i = 0; i < N; ++i) {

@@ -33,13 +33,6 @@ struct ProjectionJacobians {
   }
 };
 
-// Whether a sum of squares is so far from both ends of T's range that no digit was lost.
-template <class T>
-bool isSafeSquare(T squared) noexcept {
-  return squared >= std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon() &&
-         squared <= std::numeric_limits<T>::max();
-}
-
 template <class T>
 bool isFinite(const Vec<T, 2>& v) noexcept {
   return std::fabs(v[0]) <= std::numeric_limits<T>::max() &&
