@@ -2,9 +2,9 @@
 #define GSLAM_GEOMETRY_H
 
 /// @file
-/// All of GSLAM::geometry but what brings the processor's SIMD headers along, gslam/geometry/batch.h and
-/// gslam/geometry/undistort.h, and what speaks to other libraries, gslam/geometry/eigen.h and its
-/// sisters.
+/// All of GSLAM::geometry but what brings the processor's SIMD headers along,
+/// gslam/geometry/batch.h and gslam/geometry/undistort.h, and what speaks to other libraries,
+/// gslam/geometry/eigen.h and its sisters.
 
 #include <gslam/geometry/camera.h>
 #include <gslam/geometry/distance.h>
