@@ -9,10 +9,16 @@
 #include <gslam/core/frame.h>
 #include <gslam/core/image.h>
 #include <gslam/core/map.h>
+#include <gslam/core/memory_dataset.h>
+#include <gslam/core/player.h>
+#include <gslam/core/recorder.h>
 #include <gslam/core/registry.h>
 #include <gslam/core/rig.h>
+#include <gslam/core/run.h>
 #include <gslam/core/sensor.h>
 #include <gslam/core/slam.h>
+#include <gslam/core/slam_thread.h>
+#include <gslam/core/slam_topics.h>
 #include <gslam/core/trajectory.h>
 #include <gslam/core/version.h>
 
