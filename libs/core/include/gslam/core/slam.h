@@ -39,10 +39,10 @@ inline bool hasPose(TrackingState state) noexcept {
 
 /// Where the body was at a frame, as a SLAM system says right after it saw it.
 struct TrackedPose {
-  std::uint64_t frame = 0;                        ///< Frame::id
-  std::int64_t stamp = 0;                         ///< Frame::stamp, nanoseconds
-  SE3d T_world_body;                              ///< metres
-  TrackingState state = TrackingState::starting;  ///< whether it means anything
+  std::uint64_t frame;  ///< Frame::id
+  std::int64_t stamp;   ///< Frame::stamp, nanoseconds
+  SE3d T_world_body;    ///< metres
+  TrackingState state;  ///< whether it means anything
 };
 
 static_assert(sizeof(TrackedPose) == 80, "poses cross plugin borders");
