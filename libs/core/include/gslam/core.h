@@ -10,6 +10,7 @@
 #include <gslam/core/image.h>
 #include <gslam/core/map.h>
 #include <gslam/core/memory_dataset.h>
+#include <gslam/core/parameters.h>
 #include <gslam/core/player.h>
 #include <gslam/core/recorder.h>
 #include <gslam/core/registry.h>
