@@ -1,0 +1,59 @@
+#include "interrupt.h"
+
+#include <pthread.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "command.h"
+
+namespace app {
+namespace {
+
+struct Handler {
+  std::mutex mutex;
+  std::function<void()> stop;  // empty: none lives, or it was called
+};
+
+// Is never destroyed, since the thread that uses it ends with the process.
+Handler& handler() {
+  static Handler* const handler = new Handler;
+  return *handler;
+}
+
+void handleOne() {
+  const std::lock_guard<std::mutex> lock(handler().mutex);
+  const std::function<void()> stop = std::exchange(handler().stop, nullptr);
+  if (!stop) _exit(kInterrupted);
+  stop();
+}
+
+}  // namespace
+
+void holdInterrupts() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGINT);
+  sigaddset(&set, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  handler();
+  std::thread([set] {
+    int signal = 0;
+    while (sigwait(&set, &signal) == 0) handleOne();
+  }).detach();
+}
+
+OnInterrupt::OnInterrupt(std::function<void()> stop) {
+  const std::lock_guard<std::mutex> lock(handler().mutex);
+  handler().stop = std::move(stop);
+}
+
+OnInterrupt::~OnInterrupt() {
+  const std::lock_guard<std::mutex> lock(handler().mutex);
+  handler().stop = nullptr;
+}
+
+}  // namespace app

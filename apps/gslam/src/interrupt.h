@@ -1,0 +1,26 @@
+#ifndef GSLAM_APPS_INTERRUPT_H
+#define GSLAM_APPS_INTERRUPT_H
+
+#include <functional>
+
+namespace app {
+
+/// Makes Ctrl-C and SIGTERM wait for a thread that may do anything, instead of a signal handler,
+/// which may do little. To be called before any other thread starts.
+void holdInterrupts();
+
+/// Calls a function at the first Ctrl-C or SIGTERM while it lives. At the second, and where none
+/// lives, the process ends with kInterrupted. One at a time.
+class OnInterrupt {
+ public:
+  /// @param stop  is called in another thread, and must return soon
+  explicit OnInterrupt(std::function<void()> stop);
+  OnInterrupt(const OnInterrupt&) = delete;
+  OnInterrupt& operator=(const OnInterrupt&) = delete;
+  /// Waits for the function, should it run.
+  ~OnInterrupt();
+};
+
+}  // namespace app
+
+#endif  // GSLAM_APPS_INTERRUPT_H

@@ -1,0 +1,93 @@
+// The command `gslam`: finds the sub-command and says how it ended.
+#include <gslam/core/isolation_worker.h>
+#include <gslam/core/version.h>
+#include <gslam/svar/detail/nearest_name.h>
+#include <gslam/svar/error.h>
+
+#include <cstddef>
+#include <exception>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "interrupt.h"
+
+namespace {
+
+using app::Command;
+
+constexpr Command kCommands[] = {
+    {"run", "run a SLAM system on a dataset and keep the results", app::runCommand},
+    {"play", "play a dataset, to a SLAM system or to nobody", app::playCommand},
+    {"info", "say what is in a dataset", app::infoCommand},
+    {"map", "say what is in a map file, or convert it", app::mapCommand},
+    {"plugins", "list the plugins, what they bring and its parameters", app::pluginsCommand},
+    {"datasets", "list the kinds of datasets that can be read", app::datasetsCommand},
+    {"config", "print the parameters of a SLAM system or dataset as a file", app::configCommand},
+};
+
+void printHelp(std::ostream& out) {
+  out << "usage: gslam COMMAND [arguments]\n\n"
+         "Runs SLAM systems on datasets, and looks at both and at the results.\n\n";
+  for (const Command& command : kCommands) {
+    const std::string name = command.name;
+    out << "  " << name << std::string(10 - name.size(), ' ') << command.summary << '\n';
+  }
+  out << "\n`gslam COMMAND --help` says more. Plugins are looked for in the folders of\n"
+         "GSLAM_PLUGIN_PATH, beside the program, and in ../lib/gslam/plugins.\n";
+}
+
+int failUnknown(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Command& command : kCommands) names.emplace_back(command.name);
+  std::cerr << "gslam: there is no command '" << name << "'"
+            << gslam::detail::suggestion(gslam::detail::nearestName(name, names))
+            << "\nTry `gslam --help`.\n";
+  return app::kUsage;
+}
+
+int dispatch(const std::vector<std::string>& arguments) {
+  if (arguments.empty()) {
+    printHelp(std::cerr);
+    return app::kUsage;
+  }
+  const std::string& name = arguments[0];
+  if (name == "--help" || name == "-h" || name == "help") {
+    if (arguments.size() == 1 || name != "help") {
+      printHelp(std::cout);
+      return app::kSuccess;
+    }
+    return dispatch({arguments[1], "--help"});
+  }
+  if (name == "--version") {
+    std::cout << "gslam " GSLAM_CORE_VERSION "\n";
+    return app::kSuccess;
+  }
+  for (const Command& command : kCommands) {
+    if (name == command.name) return command.run({arguments.begin() + 1, arguments.end()});
+  }
+  return failUnknown(name);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (gslam::isIsolationWorker(argc, argv)) return gslam::runIsolationWorker(argc, argv);
+  std::string what = "gslam";
+  try {
+    const std::vector<std::string> arguments(argv + 1, argv + argc);
+    if (!arguments.empty()) what += " " + arguments[0];
+    app::holdInterrupts();
+    const int status = dispatch(arguments);
+    std::cout.flush();
+    if (!std::cout && status == app::kSuccess) throw gslam::Error("cannot write to the output");
+    return status;
+  } catch (const gslam::ConfigError& error) {
+    std::cerr << what << ": " << error.what() << "\nTry `" << what << " --help`.\n";
+    return app::kUsage;
+  } catch (const std::exception& error) {
+    std::cerr << what << ": " << error.what() << '\n';
+    return app::kFailure;
+  }
+}

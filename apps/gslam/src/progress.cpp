@@ -1,0 +1,39 @@
+#include "progress.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <string>
+
+namespace app {
+
+Progress::Progress(const gslam::Messenger& messenger) {
+  if (isatty(STDERR_FILENO) == 0) return;
+  subscriber_ = messenger.subscribe<gslam::RunStatus>(
+      "/run/status", [this](const gslam::RunStatus& status) { show(status); });
+}
+
+Progress::~Progress() {
+  subscriber_.unsubscribe();
+  if (is_shown_) std::fputs("\r\033[K", stderr);
+}
+
+void Progress::show(const gslam::RunStatus& status) {
+  const Clock::time_point now = Clock::now();
+  if (now < next_) return;
+  next_ = now + std::chrono::milliseconds(100);
+  is_shown_ = true;
+  const double seconds = std::chrono::duration<double>(now - begin_).count();
+  const auto frame = static_cast<unsigned long long>(status.frame);
+  const double rate = seconds > 0 ? double(frame) / seconds : 0;
+  if (status.frame_count == 0) {
+    std::fprintf(stderr, "\r\033[Kframe %llu, %.1f a second", frame, rate);
+  } else {
+    const auto count = static_cast<unsigned long long>(status.frame_count);
+    std::fprintf(stderr, "\r\033[Kframe %llu of %llu (%.0f %%), %.1f a second", frame, count,
+                 100.0 * double(frame) / double(count), rate);
+  }
+  std::fflush(stderr);
+}
+
+}  // namespace app
