@@ -9,6 +9,7 @@
 #include <gslam/core/frame.h>
 #include <gslam/core/image.h>
 #include <gslam/core/map.h>
+#include <gslam/core/plugin.h>
 #include <gslam/core/registry.h>
 #include <gslam/core/rig.h>
 #include <gslam/core/sensor.h>
