@@ -12,6 +12,7 @@
 #include <gslam/core/memory_dataset.h>
 #include <gslam/core/parameters.h>
 #include <gslam/core/player.h>
+#include <gslam/core/plugin.h>
 #include <gslam/core/recorder.h>
 #include <gslam/core/registry.h>
 #include <gslam/core/rig.h>
