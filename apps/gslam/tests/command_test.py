@@ -1,0 +1,234 @@
+"""The command as its users know it: a process with arguments, output and an exit status.
+
+The program is named by the environment variable GSLAM.
+"""
+
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+GSLAM = os.environ["GSLAM"]
+COMMANDS = ["run", "play", "info", "map", "plugins", "datasets", "config"]
+
+
+def gslam(*arguments, timeout=60, **environment):
+    return subprocess.run([GSLAM, *map(str, arguments)], capture_output=True, text=True,
+                          timeout=timeout, env={**os.environ, **environment})
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def check(self, result, status=0, out="", err=""):
+        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
+        self.assertIn(out, result.stdout)
+        self.assertIn(err, result.stderr)
+        return result
+
+
+class Help(Folder):
+    def test_lists_all_commands(self):
+        result = self.check(gslam("--help"))
+        for command in COMMANDS:
+            self.assertIn(f"\n  {command} ", result.stdout)
+
+    def test_each_command_has_one(self):
+        for command in COMMANDS:
+            for arguments in [(command, "--help"), ("help", command)]:
+                result = self.check(gslam(*arguments), out=f"gslam {command}")
+                self.assertEqual(result.stderr, "")
+
+    def test_version(self):
+        self.check(gslam("--version"), out="gslam 1.")
+
+
+class WrongUse(Folder):
+    def test_no_command(self):
+        self.check(gslam(), 2, err="usage: gslam COMMAND")
+
+    def test_suggests_the_right_command(self):
+        self.check(gslam("pluggins"), 2, err="did you mean plugins?")
+        self.check(gslam("xyzzyx"), 2, err="no command 'xyzzyx'")
+
+    def test_suggests_the_right_option(self):
+        self.check(gslam("play", "--datset", "carousel"), 2, err="did you mean")
+
+    def test_what_must_be_given(self):
+        self.check(gslam("play"), 2, err="dataset")
+        self.check(gslam("run", "--dataset", "carousel", "--out", self.folder), 2, err="--slam")
+        self.check(gslam("info"), 2, err="DATASET")
+        self.check(gslam("map"), 2, err="info FILE")
+
+    def test_too_many_words(self):
+        self.check(gslam("info", "a", "b"), 2, err="'b'")
+        self.check(gslam("datasets", "a"), 2, err="'a'")
+
+    def test_values_out_of_range(self):
+        self.check(gslam("play", "-d", "carousel", "--speed", "-1"), 2, err="speed")
+        self.check(gslam("play", "-d", "carousel", "--pace", "fast"), 2, err="pace")
+
+
+class Plugins(Folder):
+    def test_lists_what_they_bring(self):
+        result = self.check(gslam("plugins"), out="example 1.0.0")
+        self.assertIn("dataset carousel", result.stdout)
+        self.assertIn("SLAM dead_reckoning", result.stdout)
+        self.assertIn("needs an IMU", result.stdout)
+        self.assertIn("radius = 2.0", result.stdout)
+
+    def test_json(self):
+        facts = json.loads(self.check(gslam("plugins", "--json")).stdout)
+        example = next(p for p in facts["plugins"] if p["name"] == "example")
+        self.assertEqual(example["slams"][0]["needs"]["imu"], True)
+        self.assertEqual(example["datasets"][0]["parameters"]["radius"], 2.0)
+
+    def test_refused_ones_are_named_with_the_reason(self):
+        (self.folder / "libgslam_broken.so").write_text("no library")
+        result = self.check(gslam("plugins", GSLAM_PLUGIN_PATH=str(self.folder)))
+        self.assertIn("libgslam_broken.so", result.stdout)
+        self.assertIn("example 1.0.0", result.stdout)
+
+    def test_a_missing_one_says_where_it_was_looked_for(self):
+        result = gslam("play", "-d", "carousel", "-s", "dead_reckonin",
+                       GSLAM_PLUGIN_PATH=str(self.folder))
+        self.check(result, 1, err=str(self.folder))
+        self.assertIn("dead_reckoning", result.stderr)
+
+    def test_datasets(self):
+        self.check(gslam("datasets"), out="carousel")
+        self.assertEqual(json.loads(gslam("datasets", "--json").stdout)[0]["name"], "carousel")
+
+
+class Info(Folder):
+    def test_says_what_there_is(self):
+        result = self.check(gslam("info", "carousel"), out="front")
+        for word in ["pinhole 320 x 240", "200 Hz", "ground truth 201 poses"]:
+            self.assertIn(word, result.stdout)
+
+    def test_json(self):
+        facts = json.loads(
+            self.check(gslam("info", "carousel", "--dataset-param.radius", 3, "--json")).stdout)
+        self.assertEqual(facts["frames"], 201)
+        # Chords of a circle, so a little less.
+        self.assertAlmostEqual(facts["ground_truth"]["length_m"], 2 * 3.14159265 * 3, delta=0.01)
+
+    def test_unknown_datasets(self):
+        self.check(gslam("info", "carusel"), 1, err="carousel")
+        self.check(gslam("info", self.folder), 1, err=str(self.folder))
+
+    def test_wrong_parameters(self):
+        self.check(gslam("info", "carousel", "--dataset-param.radios", 3), 1, err="radius")
+        self.check(gslam("info", "carousel", "--dataset-param.radius", -3), 1, err="-3")
+        self.check(gslam("info", "carousel", "--dataset-param.radius", "wide"), 1,
+                   err="expected double")
+
+
+def error_at_the_end(text):
+    x, y, z = map(float, text.strip().splitlines()[-1].split()[1:4])
+    return (x * x + y * y) ** 0.5  # once around: back where it began
+
+
+class Run(Folder):
+    def test_from_dataset_to_trajectory(self):
+        out = self.folder / "a" / "b"
+        self.check(gslam("run", "-d", "carousel", "-s", "dead_reckoning", "-o", out),
+                   out="poses: 201 of 201 frames")
+        lines = (out / "trajectory.txt").read_text().strip().splitlines()
+        poses = [line for line in lines if not line.startswith("#")]
+        self.assertEqual(len(poses), 201)
+        self.assertTrue(all(len(pose.split()) == 8 for pose in poses))
+        self.assertLess(error_at_the_end("\n".join(poses)), 0.05)
+        report = json.loads((out / "run.json").read_text())
+        self.assertEqual(report["slam"]["name"], "dead_reckoning")
+        self.assertEqual(report["result"]["end"], "finished")
+
+    def test_the_parameters_count(self):
+        out = self.folder / "out"
+        self.check(gslam("run", "-d", "carousel", "-s", "dead_reckoning", "-o", out,
+                         "--param.gravity", 9.7))
+        self.assertEqual(json.loads((out / "run.json").read_text())["slam"]["parameters"],
+                         {"gravity": 9.7})
+        z = float((out / "trajectory.txt").read_text().strip().splitlines()[-1].split()[3])
+        self.assertAlmostEqual(z, 0.5 * 0.11 * 10 ** 2, delta=0.1)
+
+    def test_isolated_is_the_same(self):
+        texts = []
+        for options in [[], ["--isolate"]]:
+            out = self.folder / str(len(texts))
+            self.check(gslam("run", "-d", "carousel", "-s", "dead_reckoning", "-o", out, *options))
+            texts.append((out / "trajectory.txt").read_text())
+        self.assertEqual(texts[0], texts[1])
+
+    def test_a_part(self):
+        report = json.loads(gslam("play", "-d", "carousel", "-s", "dead_reckoning", "--first", 10,
+                                  "--count", 20, "--json").stdout)
+        self.assertEqual((report["frames"], report["last_frame"]), (20, 29))
+
+    def test_a_config_file(self):
+        path = self.folder / "my.json"
+        path.write_text(self.check(gslam("config", "-s", "dead_reckoning", "-d", "carousel")).stdout)
+        config = json.loads(path.read_text())
+        self.assertEqual(config["param"], {"gravity": 9.81})
+        config["dataset-param"]["duration"] = 2.0
+        path.write_text(json.dumps(config))
+        report = json.loads(gslam("play", "-d", "carousel", "-s", "dead_reckoning", "--config", path,
+                                  "--json").stdout)
+        self.assertEqual(report["frames"], 41)
+
+    def test_a_folder_that_cannot_be(self):
+        file = self.folder / "file"
+        file.write_text("")
+        self.check(gslam("run", "-d", "carousel", "-s", "dead_reckoning", "-o", file / "x"), 1,
+                   err=str(file))
+        self.check(gslam("run", "-d", "carousel", "-s", "dead_reckoning", "-o", file), 1,
+                   err="is no folder")
+
+    def test_quiet_without_a_terminal(self):
+        result = self.check(gslam("play", "-d", "carousel"))
+        self.assertEqual(result.stderr, "")
+        self.assertNotIn("\r", result.stdout)
+
+
+class Interrupts(Folder):
+    def start(self, *arguments):
+        process = subprocess.Popen(
+            [GSLAM, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+            text=True, start_new_session=True)
+        self.addCleanup(process.kill)
+        time.sleep(1)
+        return process
+
+    def test_ctrl_c_keeps_the_results(self):
+        for options in [[], ["--isolate"]]:
+            out = self.folder / f"out{len(options)}"
+            process = self.start("run", "-d", "carousel", "-s", "dead_reckoning", "-o", out,
+                                 "--pace", "real_time", *options)
+            os.killpg(process.pid, signal.SIGINT)  # as a terminal does: the whole group
+            stdout, stderr = process.communicate(timeout=30)
+            self.assertEqual(process.returncode, 130, stdout + stderr)
+            self.assertIn("stopped", stdout)
+            report = json.loads((out / "run.json").read_text())
+            self.assertEqual(report["result"]["end"], "stopped")
+            self.assertGreater(report["result"]["poses"], 0)
+            poses = (out / "trajectory.txt").read_text().strip().splitlines()
+            self.assertGreaterEqual(len(poses), report["result"]["poses"])
+
+
+class Map(Folder):
+    def test_files_that_are_no_maps(self):
+        self.check(gslam("map", "info", self.folder / "none.gmap"), 1, err="none.gmap")
+        bad = self.folder / "bad.gmap"
+        bad.write_bytes(b"GSLAM" * 100)
+        self.check(gslam("map", "info", bad), 1, err="bad.gmap")
+
+
+if __name__ == "__main__":
+    unittest.main()
