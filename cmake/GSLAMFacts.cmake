@@ -18,10 +18,14 @@ function(gslam_write_facts)
      \"standard\": ${STANDARD}, \"summary\": \"${SUMMARY}\", \"depends\": {${depends}},
      \"folder\": \"${FOLDER}\", \"generated\": \"${GENERATED}\"}")
   endforeach()
+  get_property(programs GLOBAL PROPERTY GSLAM_PROGRAMS)
+  list(TRANSFORM programs REPLACE "(.+)" "\"\\1\"")
+  string(REPLACE ";" ", " programs "${programs}")
   string(REPLACE ";" ",\n" entries "${entries}")
   file(WRITE "${CMAKE_BINARY_DIR}/house.json.new"
     "{\n  \"source\": \"${GSLAM_SOURCE_ROOT}\",\n  \"build\": \"${CMAKE_BINARY_DIR}\",\n"
     "  \"generator\": \"${CMAKE_GENERATOR}\",\n  \"version\": \"${PROJECT_VERSION}\",\n"
+    "  \"programs\": [${programs}],\n"
     "  \"components\": [\n${entries}\n  ]\n}\n")
   configure_file("${CMAKE_BINARY_DIR}/house.json.new" "${CMAKE_BINARY_DIR}/house.json" COPYONLY)
 endfunction()

@@ -1,5 +1,6 @@
 # `cpack -G DEB`: one .deb a component, each with its own version and dependencies, and the umbrella
-# as libgslam-cmake-dev, on which every other one depends.
+# as libgslam-cmake-dev, on which every other one depends. The command and the plugins are the
+# package gslam.
 
 get_property(components GLOBAL PROPERTY GSLAM_COMPONENTS)
 _gslam_read_version("${GSLAM_SOURCE_ROOT}" umbrella_version)
@@ -13,7 +14,8 @@ set(CPACK_RESOURCE_FILE_LICENSE "${GSLAM_SOURCE_ROOT}/LICENSE")
 set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
-set(CPACK_COMPONENTS_ALL cmake ${components})
+get_property(programs GLOBAL PROPERTY GSLAM_PROGRAMS)
+set(CPACK_COMPONENTS_ALL cmake ${programs} ${components})
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION libdevel)
 set(CPACK_STRIP_FILES OFF)
@@ -50,6 +52,16 @@ set(_gslam_summary_of_${name} \"GSLAM ${name}: ${SUMMARY}\")
     set(CPACK_DEBIAN_${NAME}_PACKAGE_SHLIBDEPS ON)
     list(APPEND CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${BINARY}")
   endif()
+endforeach()
+
+foreach(name IN LISTS programs)  # what is run, not linked
+  string(TOUPPER ${name} NAME)
+  string(APPEND GSLAM_DEB_FACTS "set(_gslam_version_of_${name} ${umbrella_version})
+set(_gslam_summary_of_${name} \"${PROJECT_DESCRIPTION}: the command\")
+")
+  set(CPACK_DEBIAN_${NAME}_PACKAGE_NAME ${name})
+  set(CPACK_DEBIAN_${NAME}_PACKAGE_SECTION science)
+  set(CPACK_DEBIAN_${NAME}_PACKAGE_SHLIBDEPS ON)
 endforeach()
 
 configure_file("${GSLAM_CMAKE_DIR}/GSLAMDebFacts.cmake.in"

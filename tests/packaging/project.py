@@ -51,6 +51,7 @@ class House:
         self.source = pathlib.Path(facts["source"])
         self.build = pathlib.Path(facts["build"])
         self.version = facts["version"]
+        self.programs = facts["programs"]
         self.components = {c["name"]: c for c in facts["components"]}
 
     def closure(self, name):

@@ -35,7 +35,7 @@ def components_are_disjoint(house, folder):
     """All components together are the whole installation, and no file belongs to two."""
     run("cmake", "--install", house.build, "--prefix", folder / "whole")
     owner = {}
-    for name in ["cmake", *house.components]:
+    for name in ["cmake", *house.programs, *house.components]:
         install(house.build, folder / name, name)
         for path in files_below(folder / name):
             expect(path not in owner, f"{path} belongs to {owner.get(path)} and to {name}")
