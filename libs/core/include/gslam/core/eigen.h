@@ -118,9 +118,9 @@ template <class T>
 void viewChannelAsEigen(const Image&& image, int channel) = delete;
 /// @}
 
-/// An image with the elements of a matrix, array, map or block, without a copy; the caller keeps
-/// them alive and where they are.
-/// @param matrix  row by row (Eigen::RowMajor), whose rows have no gaps inside
+/// An image with the elements of a matrix or array, without a copy; the caller keeps them alive and
+/// where they are.
+/// @param matrix  row by row (Eigen::RowMajor)
 /// @throws ArgumentError when there are more than 2^31 - 1 rows or columns
 template <class Derived>
 Image viewAsImage(Eigen::PlainObjectBase<Derived>& matrix) {
