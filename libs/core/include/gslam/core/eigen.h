@@ -19,7 +19,7 @@
 ///
 /// Row y, column x of a matrix is the pixel in column x, row y.
 ///
-///     gslam::viewAsEigen<float>(depth) *= 0.001f;
+///     gslam::viewImageAsEigen<float>(depth) *= 0.001f;
 ///     gslam::viewChannelAsEigen<std::uint8_t>(colour, 2).setZero();
 
 namespace gslam {
@@ -80,19 +80,19 @@ struct IsMovableToImage
 /// @param image  must outlive the view; not a temporary
 /// @throws ArgumentError when T is not the type of a channel, or there is more than one
 template <class T>
-EigenImage<T> viewAsEigen(Image& image) {
+EigenImage<T> viewImageAsEigen(Image& image) {
   detail::checkSingleChannel(image);
   const ImageSpan<T> span = image.template span<T>();
   return EigenImage<T>(span.data, span.height, span.width, Eigen::OuterStride<>(span.stride));
 }
 template <class T>
-EigenConstImage<T> viewAsEigen(const Image& image) {
+EigenConstImage<T> viewImageAsEigen(const Image& image) {
   detail::checkSingleChannel(image);
   const ImageSpan<const T> span = image.template span<T>();
   return EigenConstImage<T>(span.data, span.height, span.width, Eigen::OuterStride<>(span.stride));
 }
 template <class T>
-void viewAsEigen(const Image&& image) = delete;
+void viewImageAsEigen(const Image&& image) = delete;
 /// @}
 
 /// @{
@@ -142,7 +142,7 @@ Image toImage(const Eigen::DenseBase<Derived>& matrix) {
   if (matrix.size() == 0) return Image();
   Image image(detail::imageSize(matrix.cols()), detail::imageSize(matrix.rows()),
               PixelTypeOf<T>::value);
-  viewAsEigen<T>(image) = matrix.derived().matrix();
+  viewImageAsEigen<T>(image) = matrix.derived().matrix();
   return image;
 }
 
