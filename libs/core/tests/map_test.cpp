@@ -1,0 +1,408 @@
+// A map does what a few std::map would do, and so do its copies.
+#include <gmock/gmock.h>
+#include <gslam/core/map.h>
+#include <gslam/core/map_check.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "random_map.h"
+
+namespace {
+
+using gslam::EdgeId;
+using gslam::Keyframe;
+using gslam::KeyframeId;
+using gslam::kNoPoint;
+using gslam::Map;
+using gslam::MapPoint;
+using gslam::Observation;
+using gslam::PointId;
+using gslam::PoseEdge;
+using gslam::SE3d;
+using gslam::SIM3d;
+using gslam::SO3d;
+using gslam::Vec2d;
+using gslam::Vec3d;
+using gslam_test::RandomMap;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+// The same with nothing shared and no ids in lists.
+struct Model {
+  std::map<KeyframeId, std::pair<SE3d, std::vector<PointId>>> keyframes;
+  std::map<PointId, std::pair<Vec3d, std::vector<Observation>>> points;
+  std::map<EdgeId, std::pair<KeyframeId, KeyframeId>> edges;
+
+  void forget(KeyframeId keyframe, std::uint32_t feature) {
+    PointId& point = keyframes[keyframe].second[feature];
+    if (point == kNoPoint) return;
+    std::vector<Observation>& seen = points[point].second;
+    seen.erase(std::find(seen.begin(), seen.end(), Observation{keyframe, feature}));
+    point = kNoPoint;
+  }
+  void observe(PointId point, KeyframeId keyframe, std::uint32_t feature) {
+    if (keyframes[keyframe].second[feature] == point) return;
+    forget(keyframe, feature);
+    keyframes[keyframe].second[feature] = point;
+    points[point].second.push_back(Observation{keyframe, feature});
+  }
+  void remove(KeyframeId keyframe) {
+    for (std::uint32_t i = 0; i < keyframes[keyframe].second.size(); ++i) forget(keyframe, i);
+    keyframes.erase(keyframe);
+    for (auto edge = edges.begin(); edge != edges.end();) {
+      const bool ends = edge->second.first == keyframe || edge->second.second == keyframe;
+      edge = ends ? edges.erase(edge) : std::next(edge);
+    }
+  }
+  void remove(PointId point) {
+    const std::vector<Observation> seen = points[point].second;
+    for (const Observation& by : seen) forget(by.keyframe, by.feature);
+    points.erase(point);
+  }
+};
+
+void expectSame(const Map& map, const Model& model) {
+  ASSERT_EQ(map.keyframes().size(), model.keyframes.size());
+  ASSERT_EQ(map.points().size(), model.points.size());
+  ASSERT_EQ(map.edges().size(), model.edges.size());
+  auto keyframe = model.keyframes.begin();
+  for (const auto& item : map.keyframes()) {
+    ASSERT_EQ(item.id, keyframe->first);
+    ASSERT_EQ(item.value.T_world_body.translation(), keyframe->second.first.translation());
+    const auto seen = map.pointsSeen(item.id);
+    ASSERT_EQ(std::vector<PointId>(seen.begin(), seen.end()), keyframe->second.second);
+    ++keyframe;
+  }
+  std::size_t observations = 0;
+  auto point = model.points.begin();
+  for (const auto& item : map.points()) {
+    ASSERT_EQ(item.id, point->first);
+    ASSERT_EQ(item.value.position, point->second.first);
+    const auto seen = map.observations(item.id);
+    ASSERT_EQ(std::vector<Observation>(seen.begin(), seen.end()), point->second.second);
+    observations += seen.size();
+    ++point;
+  }
+  ASSERT_EQ(map.observationCount(), observations);
+  auto edge = model.edges.begin();
+  for (const auto& item : map.edges()) {
+    ASSERT_EQ(item.id, edge->first);
+    ASSERT_EQ(item.value.from, edge->second.first);
+    ASSERT_EQ(item.value.to, edge->second.second);
+    ++edge;
+  }
+  ASSERT_THAT(gslam::validate(map), IsEmpty());
+}
+
+template <class Known>
+typename Known::key_type anyOf(const Known& known, RandomMap& random) {
+  return std::next(known.begin(), std::ptrdiff_t(random.below(known.size())))->first;
+}
+
+// Does the same to both.
+class Twins {
+ public:
+  explicit Twins(unsigned seed) : random_(seed) {}
+
+  void step() {
+    const std::uint32_t dice = random_.below(100);
+    if (dice < 6 || model.keyframes.size() < 2) return addKeyframe();
+    if (dice < 30 || model.points.size() < 2) return addPoint();
+    if (dice < 70) return observe();
+    if (dice < 76) return removePoint();
+    if (dice < 78) return removeKeyframe();
+    if (dice < 82) return addEdge();
+    if (dice < 84 && !model.edges.empty()) return removeEdge();
+    if (dice < 90) return move();
+    forget();
+  }
+
+  Map map;
+  Model model;
+
+ private:
+  void addKeyframe() {
+    const std::size_t features = random_.below(20);
+    const Keyframe keyframe = random_.keyframe(features, false);
+    model.keyframes[map.add(keyframe)] =
+        std::make_pair(keyframe.T_world_body, std::vector<PointId>(features, kNoPoint));
+  }
+  void addPoint() {
+    const MapPoint point = random_.point();
+    // Sometimes far off, so that chunks and pages have gaps.
+    PointId id = map.nextPointId();
+    if (random_.below(200) == 0) id = PointId(std::uint32_t(id) + random_.below(200000));
+    map.insert(id, point);
+    model.points[id].first = point.position;
+  }
+  void observe() {
+    const KeyframeId keyframe = anyOf(model.keyframes, random_);
+    const PointId point = anyOf(model.points, random_);
+    const std::size_t features = map.pointsSeen(keyframe).size();
+    if (features == 0) return;
+    const std::uint32_t feature = random_.below(features);
+    map.observe(point, keyframe, feature);
+    model.observe(point, keyframe, feature);
+  }
+  void forget() {
+    const KeyframeId keyframe = anyOf(model.keyframes, random_);
+    if (map.pointsSeen(keyframe).empty()) return;
+    const std::uint32_t feature = random_.below(map.pointsSeen(keyframe).size());
+    map.forget(keyframe, feature);
+    model.forget(keyframe, feature);
+  }
+  void removePoint() {
+    const PointId point = anyOf(model.points, random_);
+    EXPECT_TRUE(map.remove(point));
+    EXPECT_FALSE(map.remove(point));
+    model.remove(point);
+  }
+  void removeKeyframe() {
+    const KeyframeId keyframe = anyOf(model.keyframes, random_);
+    EXPECT_TRUE(map.remove(keyframe));
+    EXPECT_FALSE(map.remove(keyframe));
+    model.remove(keyframe);
+  }
+  void addEdge() {
+    const KeyframeId a = anyOf(model.keyframes, random_), b = anyOf(model.keyframes, random_);
+    if (a == b) return;
+    model.edges[map.add(random_.edge(a, b))] = std::make_pair(a, b);
+  }
+  void removeEdge() {
+    const EdgeId edge = anyOf(model.edges, random_);
+    EXPECT_TRUE(map.remove(edge));
+    model.edges.erase(edge);
+  }
+  void move() {
+    const PointId point = anyOf(model.points, random_);
+    model.points[point].first = random_.vector(5);
+    map.setPosition(point, model.points[point].first);
+    const KeyframeId keyframe = anyOf(model.keyframes, random_);
+    model.keyframes[keyframe].first = random_.pose();
+    map.setPose(keyframe, model.keyframes[keyframe].first);
+  }
+
+  RandomMap random_;
+};
+
+TEST(Map, DoesWhatPlainContainersDo) {
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    Twins twins(seed);
+    for (int i = 0; i < 4000; ++i) {
+      twins.step();
+      if (i % 500 != 0) continue;
+      ASSERT_NO_FATAL_FAILURE(expectSame(twins.map, twins.model));
+    }
+    ASSERT_NO_FATAL_FAILURE(expectSame(twins.map, twins.model));
+  }
+}
+
+TEST(Map, CopiesStayAsTheyWere) {
+  Twins twins(7);
+  std::vector<std::pair<Map, Model>> copies;
+  for (int i = 0; i < 3000; ++i) {
+    twins.step();
+    if (i % 100 == 0) copies.emplace_back(twins.map, twins.model);
+  }
+  for (const auto& copy : copies) ASSERT_NO_FATAL_FAILURE(expectSame(copy.first, copy.second));
+}
+
+TEST(Map, CopiesGoTheirOwnWays) {
+  Twins first(9);
+  for (int i = 0; i < 1500; ++i) first.step();
+  Twins second = first;
+  Twins third = first;
+  for (int i = 0; i < 1000; ++i) {
+    second.step();
+    first.step();
+    if (i % 300 == 0) third = second;  // over one that has changes of its own
+    third.step();
+  }
+  ASSERT_NO_FATAL_FAILURE(expectSame(first.map, first.model));
+  ASSERT_NO_FATAL_FAILURE(expectSame(second.map, second.model));
+  ASSERT_NO_FATAL_FAILURE(expectSame(third.map, third.model));
+}
+
+TEST(Map, MovedFromIsEmpty) {
+  Map map = RandomMap(1).map(5, 20);
+  const std::size_t observations = map.observationCount();
+  Map moved(std::move(map));
+  EXPECT_EQ(moved.observationCount(), observations);
+  map = Map();  // also clears what a moved-from map may have
+  EXPECT_TRUE(map.points().empty());
+  map = std::move(moved);
+  EXPECT_EQ(map.observationCount(), observations);
+  EXPECT_THAT(gslam::validate(map), IsEmpty());
+}
+
+TEST(Map, IdsAreNotUsedAgain) {
+  Map map;
+  const PointId first = map.add(MapPoint());
+  map.remove(first);
+  EXPECT_NE(map.add(MapPoint()), first);
+  map.insert(PointId(70000), MapPoint());
+  EXPECT_EQ(map.add(MapPoint()), PointId(70001));
+  EXPECT_THROW(map.insert(PointId(70001), MapPoint()), gslam::ArgumentError);
+}
+
+TEST(Map, TakesTheLastIdAndThenNoMore) {
+  Map map;
+  map.insert(PointId(0xFFFFFFFE), MapPoint());
+  EXPECT_NE(map.find(PointId(0xFFFFFFFE)), nullptr);
+  EXPECT_THROW(map.insert(kNoPoint, MapPoint()), gslam::ArgumentError);
+  EXPECT_THROW(map.add(MapPoint()), gslam::Error);
+  std::size_t count = 0;
+  for (const auto& item : map.points()) {
+    EXPECT_EQ(item.id, PointId(0xFFFFFFFE));
+    ++count;
+  }
+  EXPECT_EQ(count, 1u);
+}
+
+TEST(Map, RefusesWhatIsNotInIt) {
+  Map map;
+  RandomMap random(1);
+  const KeyframeId keyframe = map.add(random.keyframe(3, false));
+  const PointId point = map.add(MapPoint());
+  EXPECT_THROW(map.at(PointId(5)), gslam::ArgumentError);
+  EXPECT_THROW(map.observe(PointId(5), keyframe, 0), gslam::ArgumentError);
+  EXPECT_THROW(map.observe(point, KeyframeId(5), 0), gslam::ArgumentError);
+  EXPECT_THROW(map.observe(point, keyframe, 3), gslam::ArgumentError);
+  EXPECT_THROW(map.forget(keyframe, 3), gslam::ArgumentError);
+  EXPECT_THROW(map.setPose(KeyframeId(5), SE3d()), gslam::ArgumentError);
+  EXPECT_THROW(map.setShape(PointId(5), gslam::Shape()), gslam::ArgumentError);
+  EXPECT_THROW(map.add(random.edge(keyframe, KeyframeId(5))), gslam::ArgumentError);
+  EXPECT_THROW(map.add(random.edge(keyframe, keyframe)), gslam::ArgumentError);
+  EXPECT_THROW(map.merge(point, point), gslam::ArgumentError);
+  EXPECT_THROW(map.setDescriptor(point, gslam::Image(2, 2, gslam::PixelType::u8)),
+               gslam::ArgumentError);
+  EXPECT_EQ(map.find(EdgeId(0)), nullptr);
+  EXPECT_THAT(gslam::validate(map), IsEmpty());
+}
+
+TEST(Map, RefusesDescriptorsThatAreNotOneAFeature) {
+  Keyframe keyframe;
+  gslam::KeyframeContent content;
+  content.features.resize(3);
+  content.descriptors = gslam::Image(32, 2, gslam::PixelType::u8);
+  keyframe.content = std::make_shared<const gslam::KeyframeContent>(content);
+  EXPECT_THROW(Map().add(keyframe), gslam::ArgumentError);
+}
+
+// The keyframe sees `a` with camera 0 and feature 0, `b` with 0 and 1, `b` with 1 and 2.
+TEST(Map, MergeMovesWhatSawThePointThatGoes) {
+  Map map;
+  gslam::KeyframeContent content;
+  content.features.resize(3);
+  content.features[2].camera = 1;
+  Keyframe keyframe;
+  keyframe.content = std::make_shared<const gslam::KeyframeContent>(content);
+  const KeyframeId both = map.add(keyframe), only_b = map.add(keyframe);
+  const PointId a = map.add(MapPoint()), b = map.add(MapPoint());
+  map.observe(a, both, 0);
+  map.observe(b, both, 1);
+  map.observe(b, both, 2);
+  map.observe(b, only_b, 1);
+  map.merge(a, b);
+  EXPECT_EQ(map.find(b), nullptr);
+  EXPECT_THAT(map.pointsSeen(both), ElementsAre(a, kNoPoint, a));
+  EXPECT_THAT(map.pointsSeen(only_b), ElementsAre(kNoPoint, a, kNoPoint));
+  EXPECT_THAT(gslam::validate(map), IsEmpty());
+}
+
+TEST(Map, ImagesCanBeDroppedWhileSnapshotsKeepThem) {
+  Map map;
+  const KeyframeId id = map.add(RandomMap(3).keyframe(4, true));
+  const Map copy = map;
+  map.setImages(id, {});
+  EXPECT_TRUE(map.at(id).content->images.empty());
+  EXPECT_EQ(map.at(id).content->features.size(), 4u);
+  EXPECT_EQ(copy.at(id).content->images.size(), 2u);
+}
+
+Vec2d pixelIn(const Map& map, const Keyframe& keyframe, std::size_t camera, PointId point) {
+  const gslam::CameraSensor& sensor = map.rig().cameras[camera];
+  const SE3d T_camera_world = (keyframe.T_world_body * sensor.T_body_camera).inverse();
+  Vec2d pixel = {-1, -1};
+  sensor.camera.project(T_camera_world * map.at(point).position, pixel);
+  return pixel;
+}
+
+// The squared error of an edge, by its definition.
+double errorOf(const Map& map, const PoseEdge& edge) {
+  const SE3d measured = map.at(edge.from).T_world_body.inverse() * map.at(edge.to).T_world_body;
+  const auto error = (edge.T_from_to.inverse() * measured).log();
+  return error.dot(edge.information * error);
+}
+
+TEST(Map, TransformChangesNothingThatIsSeen) {
+  const Map before = RandomMap(5).map(8, 40);
+  Map after = before;
+  const SIM3d S(SO3d::exp({0.3, -2, 1}), {5, -7, 100}, 3.7);
+  after.transform(S);
+  for (const auto& item : before.keyframes()) {
+    const Keyframe& moved = after.at(item.id);
+    EXPECT_LT((moved.T_world_body.translation() - S * item.value.T_world_body.translation()).norm(),
+              1e-9);
+    for (const auto& point : before.points()) {
+      for (std::size_t camera = 0; camera < 2; ++camera) {
+        const Vec2d was = pixelIn(before, item.value, camera, point.id);
+        if (was.norm() > 1e4) continue;  // too near to the camera's plane to be compared
+        EXPECT_LT((pixelIn(after, moved, camera, point.id) - was).norm(), 1e-5);
+      }
+    }
+    const auto& images = item.value.content->images;
+    if (images.empty()) continue;
+    EXPECT_DOUBLE_EQ(moved.content->images[1].depth_scale, images[1].depth_scale * 3.7);
+  }
+  for (const auto& item : before.edges()) {
+    const double error = errorOf(before, item.value);
+    EXPECT_NEAR(errorOf(after, after.at(item.id)), error, 1e-6 * error);
+  }
+  for (const auto& item : before.points()) {
+    const gslam::Shape* const shape = before.shape(item.id);
+    if (shape == nullptr) continue;
+    const Vec3d end = item.value.position + shape->R_world_shape * shape->size;
+    const gslam::Shape& moved = *after.shape(item.id);
+    const Vec3d moved_end = after.at(item.id).position + moved.R_world_shape * moved.size;
+    EXPECT_LT((moved_end - S * end).norm(), 1e-9);
+  }
+  EXPECT_THAT(gslam::validate(after), IsEmpty());
+  after.transform(S.inverse());
+  for (const auto& item : before.points()) {
+    EXPECT_LT((after.at(item.id).position - item.value.position).norm(), 1e-9);
+    EXPECT_LT((after.at(item.id).normal - item.value.normal).norm(), 1e-5f);
+  }
+}
+
+TEST(MapCheck, SaysWhatIsWrong) {
+  Map map;
+  RandomMap random(1);
+  map.setRig(random.rig());
+  gslam::KeyframeContent content;
+  content.features.resize(1);
+  content.features[0].camera = 2;
+  Keyframe keyframe;
+  keyframe.content = std::make_shared<const gslam::KeyframeContent>(content);
+  keyframe.T_world_body = SE3d(SO3d(), {std::numeric_limits<double>::quiet_NaN(), 0, 0});
+  map.add(keyframe);
+  MapPoint point;
+  point.position = {0, std::numeric_limits<double>::infinity(), 0};
+  map.add(point);
+  EXPECT_THAT(gslam::validate(map),
+              ElementsAre("keyframe 0 has a pose that is not finite",
+                          "keyframe 0 has a feature in a camera that the rig does not have",
+                          "point 0 has a position that is not finite"));
+  EXPECT_EQ(gslam::validate(map, 1).size(), 1u);
+}
+
+}  // namespace
