@@ -3,7 +3,9 @@
 #include <gslam/core/isolated_slam.h>
 #include <sys/stat.h>
 
+#include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <iostream>
 #include <utility>
 
@@ -105,8 +107,10 @@ void Session::makeSlam(gslam::Plugins& plugins, const Options& options) {
   parameters_ = gslam::completeParameters(factory.parameters, options.get<gslam::Svar>("param"));
   if (options.get<bool>("isolate")) {
     gslam::IsolationOptions isolation;
-    isolation.timeout = options.get<double>("timeout");
-    slam_.reset(new gslam::IsolatedSlam(name, isolation));
+    isolation.slam = name;
+    isolation.feed_limit = std::chrono::milliseconds(
+        static_cast<std::int64_t>(options.get<double>("timeout") * 1000));
+    slam_ = std::make_unique<gslam::IsolatedSlam>(isolation);
   } else {
     slam_ = factory.make();
   }
