@@ -1,3 +1,4 @@
+#include <gslam/core/open_dataset.h>
 #include <gslam/core/stamp.h>
 #include <gslam/svar/json.h>
 
@@ -5,7 +6,7 @@
 #include <sstream>
 
 #include "command.h"
-#include "session.h"
+#include "options.h"
 
 namespace app {
 namespace {
@@ -113,8 +114,8 @@ int infoCommand(const std::vector<std::string>& arguments) {
                            "parameters of the dataset, as --dataset-param.NAME VALUE");
   if (!options.read(arguments)) return kSuccess;
   gslam::Plugins plugins;
-  const std::unique_ptr<gslam::Dataset> dataset =
-      openDataset(plugins, options.oneWord("DATASET"), options.get<gslam::Svar>("dataset-param"));
+  const std::unique_ptr<gslam::Dataset> dataset = gslam::openDataset(
+      plugins, options.oneWord("DATASET"), options.get<gslam::Svar>("dataset-param"));
   if (options.isJson()) {
     std::cout << gslam::printJson(describe(dataset->info())) << '\n';
   } else {

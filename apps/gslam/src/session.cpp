@@ -1,7 +1,7 @@
 #include "session.h"
 
 #include <gslam/core/isolated_slam.h>
-#include <sys/stat.h>
+#include <gslam/core/open_dataset.h>
 
 #include <chrono>
 #include <cstddef>
@@ -15,11 +15,6 @@
 
 namespace app {
 namespace {
-
-bool exists(const std::string& path) {
-  struct stat facts = {};
-  return stat(path.c_str(), &facts) == 0;
-}
 
 std::vector<std::string> paces() {
   return {"every_frame", "real_time"};
@@ -54,15 +49,8 @@ std::string seconds(double value) {
 
 }  // namespace
 
-std::unique_ptr<gslam::Dataset> openDataset(gslam::Plugins& plugins, const std::string& name,
-                                            const gslam::Svar& parameters) {
-  const gslam::DatasetFactory factory =
-      exists(name) ? plugins.datasetFor(name) : plugins.dataset(name);
-  return factory.open(name, gslam::completeParameters(factory.parameters, parameters));
-}
-
 void Session::declare(Options& options) {
-  options.arg<std::string>("dataset", "file or folder, or the name of a kind of dataset")
+  options.arg<std::string>("dataset", "file, folder, KIND:PATH or KIND://...; see `gslam datasets`")
       .shortName("d")
       .group("What");
   options.arg<std::string>("slam", "", "name or file of the SLAM system")
@@ -90,8 +78,8 @@ void Session::declare(Options& options) {
 
 Session::Session(const Options& options)
     : play_(playOptions(options)), plugins_(new gslam::Plugins) {
-  dataset_ = openDataset(*plugins_, options.get<std::string>("dataset"),
-                         options.get<gslam::Svar>("dataset-param"));
+  dataset_ = gslam::openDataset(*plugins_, options.get<std::string>("dataset"),
+                                options.get<gslam::Svar>("dataset-param"));
   if (!options.get<std::string>("slam").empty()) makeSlam(*plugins_, options);
 }
 
@@ -108,8 +96,8 @@ void Session::makeSlam(gslam::Plugins& plugins, const Options& options) {
   if (options.get<bool>("isolate")) {
     gslam::IsolationOptions isolation;
     isolation.slam = name;
-    isolation.feed_limit = std::chrono::milliseconds(
-        static_cast<std::int64_t>(options.get<double>("timeout") * 1000));
+    isolation.feed_limit =
+        std::chrono::milliseconds(static_cast<std::int64_t>(options.get<double>("timeout") * 1000));
     slam_ = std::make_unique<gslam::IsolatedSlam>(isolation);
   } else {
     slam_ = factory.make();

@@ -11,13 +11,6 @@
 
 namespace app {
 
-/// Opens what --dataset means: the name of a kind of dataset, or a file or folder.
-/// @param plugins     that may have it
-/// @param name        as the user gave it
-/// @param parameters  as the user gave them
-std::unique_ptr<gslam::Dataset> openDataset(gslam::Plugins& plugins, const std::string& name,
-                                            const gslam::Svar& parameters);
-
 /// A dataset, and a SLAM system for it unless none was asked for: what `run` and `play` share.
 class Session {
  public:
