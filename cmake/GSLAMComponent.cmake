@@ -11,7 +11,8 @@
 #     PRIVATE_PACKAGES "ZLIB 1.2"      # the same for what only its .cpp files see: users of the
 #     PRIVATE_LINK     ZLIB::ZLIB      #     static library still need it to link
 #     PKGCONFIG -lz                    # the linker's words for what is linked, but Threads::Threads
-#     DEBIAN   zlib1g-dev)             # Debian packages that hold those packages
+#     DEBIAN   zlib1g-dev              # Debian packages that hold those packages
+#     COMMANDS GSLAMPlugin)            # files of cmake/ whose commands its users get, too
 #
 # makes, from the folder it is called in (include/ src/ tests/ bench/ examples/ VERSION README.md):
 #   target gslam_<name>, alias GSLAM::<name>; generated header gslam/<name>/version.h and, for a
@@ -40,7 +41,7 @@ include("${GSLAM_CMAKE_DIR}/GSLAMUmbrella.cmake")
 
 function(gslam_component name)
   cmake_parse_arguments(ARG "" "SUMMARY;KIND;STANDARD"
-    "DEPENDS;SOURCES;PACKAGES;LINK;PRIVATE_PACKAGES;PRIVATE_LINK;PKGCONFIG;DEBIAN" ${ARGN})
+    "DEPENDS;SOURCES;PACKAGES;LINK;PRIVATE_PACKAGES;PRIVATE_LINK;PKGCONFIG;DEBIAN;COMMANDS" ${ARGN})
   get_property(begun GLOBAL PROPERTY GSLAM_${name}_BEGUN)
   if(begun)
     return()  # somebody who needed it was added before it, or it needs the library around it
@@ -80,10 +81,13 @@ function(gslam_component name)
   target_link_libraries(${target} ${visibility} ${dependency_targets} ${ARG_LINK})
 
   _gslam_write_version_header(${name} ${version})
+  foreach(file IN LISTS ARG_COMMANDS)
+    include("${GSLAM_CMAKE_DIR}/${file}.cmake")
+  endforeach()
   if(GSLAM_INSTALL)
     _gslam_install_component(${name} ${version} ${ARG_KIND} "${ARG_SUMMARY}" "${ARG_DEPENDS}"
       "${ARG_PACKAGES}" "${ARG_PRIVATE_PACKAGES}" "${ARG_LINK};${ARG_PRIVATE_LINK}"
-      "${ARG_PKGCONFIG}")
+      "${ARG_PKGCONFIG}" "${ARG_COMMANDS}")
     gslam_umbrella()
   endif()
   _gslam_record_component(${name} ${version} ${ARG_KIND} ${ARG_STANDARD} "${ARG_SUMMARY}"

@@ -2,7 +2,7 @@
 # Everything lands in the install component of the same name.
 
 function(_gslam_install_component name version kind summary depends
-         packages private_packages link pkgconfig)
+         packages private_packages link pkgconfig commands)
   if(kind STREQUAL headers)
     set(data_dir "${CMAKE_INSTALL_DATADIR}")
     set(arch ARCH_INDEPENDENT)
@@ -29,6 +29,11 @@ function(_gslam_install_component name version kind summary depends
     list(APPEND packages ${private_packages})
   endif()
   _gslam_dependency_lines(${name} ${version} "${depends}" "${packages}" FIND_DEPENDENCIES)
+  set(INCLUDE_COMMANDS "")
+  foreach(file IN LISTS commands)
+    install(FILES "${GSLAM_CMAKE_DIR}/${file}.cmake" DESTINATION "${config_dir}" COMPONENT ${name})
+    string(APPEND INCLUDE_COMMANDS "include(\"\${CMAKE_CURRENT_LIST_DIR}/${file}.cmake\")\n")
+  endforeach()
   configure_package_config_file("${GSLAM_CMAKE_DIR}/component-config.cmake.in"
     "${CMAKE_CURRENT_BINARY_DIR}/GSLAM_${name}Config.cmake"
     INSTALL_DESTINATION "${config_dir}" NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)

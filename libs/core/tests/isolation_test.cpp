@@ -137,7 +137,7 @@ bool isSamePose(const TrackedPose& a, const TrackedPose& b) {
 }
 
 TEST_F(Isolation, GivesTheSamePosesToTheBit) {
-  gslam::Plugins plugins({GSLAM_TEST_PLUGIN_FOLDER});
+  gslam::Plugins plugins;
   const Svar parameters = Svar::object({{"seed", "x\n\xC3\xA4\""}, {"keep", 3}});
   SlamRun here(plugins.slam(optionsOf().slam).make(), parameters);
   SlamRun there(isolated(), parameters);
@@ -483,7 +483,7 @@ TEST_F(Isolation, WorksWhereChildrenAreReapedUnseen) {
 }
 
 TEST_F(Isolation, FactoriesCanBeMadeIsolated) {
-  gslam::Plugins plugins({GSLAM_TEST_PLUGIN_FOLDER});
+  gslam::Plugins plugins;
   const gslam::SlamFactory toy = plugins.slam(optionsOf().slam);
   const gslam::SlamFactory factory = gslam::isolatedFactory(toy, optionsOf());
   EXPECT_EQ(factory.name, "toy");
