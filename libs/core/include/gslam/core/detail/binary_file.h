@@ -4,6 +4,7 @@
 
 #include <gslam/base/error.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include <cstring>
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace gslam {
 inline namespace v1 {
@@ -56,6 +58,18 @@ class ByteSource {
   std::uint64_t remaining_ = 0;
   std::uint64_t offset_ = 0;
 };
+
+// All that is left. It grows as it is read: a folder, for one, has a size that means nothing.
+inline std::vector<std::uint8_t> readAll(ByteSource& source) {
+  std::vector<std::uint8_t> bytes;
+  while (source.remaining() != 0) {
+    const std::size_t before = bytes.size();
+    const std::uint64_t step = std::max<std::uint64_t>(before, 1 << 20);
+    bytes.resize(before + static_cast<std::size_t>(std::min(step, source.remaining())));
+    source.read(bytes.data() + before, bytes.size() - before);
+  }
+  return bytes;
+}
 
 // A file that is written under another name, and gets its own when all is in it: others see the
 // old content or the new. Without commit() nothing is left of it.
