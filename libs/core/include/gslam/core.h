@@ -7,6 +7,7 @@
 #include <gslam/core/application.h>
 #include <gslam/core/dataset.h>
 #include <gslam/core/frame.h>
+#include <gslam/core/geodesy.h>
 #include <gslam/core/image.h>
 #include <gslam/core/map.h>
 #include <gslam/core/memory_dataset.h>
@@ -21,7 +22,9 @@
 #include <gslam/core/slam.h>
 #include <gslam/core/slam_thread.h>
 #include <gslam/core/slam_topics.h>
+#include <gslam/core/stamp.h>
 #include <gslam/core/trajectory.h>
+#include <gslam/core/trajectory_file.h>
 #include <gslam/core/version.h>
 
 #endif  // GSLAM_CORE_H
