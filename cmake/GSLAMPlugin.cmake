@@ -6,13 +6,14 @@
 #     SOURCES orb.cpp tracker.cpp  # one of them says GSLAM_PLUGIN(orb, ...)
 #     LINK    Eigen3::Eigen        # beside GSLAM::core
 #     STANDARD 17                  # of C++; default: 11
-#     INSTALL)                     # to lib/gslam/plugins, where programs in bin/ look for it
+#     INSTALL                      # to lib/gslam/plugins, where programs in bin/ look for it
+#     COMPONENT orb)               # install component; default: the target's name
 #
 # makes the target orb, libgslam_orb.so (with NAME x: libgslam_x.so), whose symbols are hidden but
 # for `gslam_plugin`, and which finds libraries beside itself and, installed, in lib/.
 
 function(gslam_add_plugin target)
-  cmake_parse_arguments(ARG "INSTALL" "NAME;STANDARD" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "INSTALL" "NAME;STANDARD;COMPONENT" "SOURCES;LINK" ${ARGN})
   if(ARG_UNPARSED_ARGUMENTS OR NOT ARG_SOURCES)
     message(FATAL_ERROR "gslam_add_plugin(${target}): SOURCES are needed, and these words are not "
       "understood: '${ARG_UNPARSED_ARGUMENTS}'")
@@ -31,8 +32,11 @@ function(gslam_add_plugin target)
     CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
     INSTALL_RPATH "$ORIGIN;$ORIGIN/../..")
   if(ARG_INSTALL)
+    if(NOT ARG_COMPONENT)
+      set(ARG_COMPONENT ${target})
+    endif()
     include(GNUInstallDirs)
     install(TARGETS ${target} LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/gslam/plugins"
-      COMPONENT ${target})
+      COMPONENT ${ARG_COMPONENT})
   endif()
 endfunction()

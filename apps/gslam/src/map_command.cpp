@@ -1,4 +1,5 @@
 #include <gslam/core/map_file.h>
+#include <gslam/core/map_trajectory.h>
 #include <gslam/core/ply.h>
 #include <gslam/core/trajectory_file.h>
 #include <gslam/svar/json.h>
@@ -47,9 +48,9 @@ int printInfo(const Options& options, const std::string& path) {
 int convert(const std::string& from, const std::string& to) {
   const gslam::Map map = gslam::loadMap(from);
   if (endsIn(to, ".gmap")) {
-    gslam::saveMap(map, to);
+    gslam::saveMap(to, map);
   } else if (endsIn(to, ".ply")) {
-    gslam::savePly(map, to);
+    gslam::savePly(to, map);
   } else if (endsIn(to, ".txt")) {
     gslam::writeTrajectory(to, gslam::keyframeTrajectory(map));
   } else {
