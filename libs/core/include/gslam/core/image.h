@@ -6,6 +6,7 @@
 #include <gslam/core/pixel_type.h>
 #include <gslam/geometry/undistort.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -39,7 +40,8 @@ class Image {
   /// @param width, height  pixels; both 0, or both 1 or more
   /// @param type           of a channel
   /// @param channels       of a pixel, 1 to 65535
-  /// @throws ArgumentError when a size is wrong, or all pixels take more than 2^47 bytes
+  /// @throws ArgumentError when a size is wrong, or all pixels take more than 2^47 bytes (2^30
+  ///   where addresses have 32 bits)
   Image(int width, int height, PixelType type, int channels = 1)
       : Image(shaped(width, height, type, channels, 0)) {
     if (empty()) return;
@@ -66,13 +68,24 @@ class Image {
 
   /// Pixels that somebody else owns and wants back.
   /// @param data, width, height, type, channels, stride  as above
-  /// @param release   called once, when the last handle is gone, in the thread that let go of it
-  /// @throws ArgumentError as above; then nothing is released
+  /// @param release   called once, when the last handle is gone, in the thread that let go of it;
+  ///                  must not throw
+  /// @throws ArgumentError as above; whatever is thrown, nothing is released then
   static Image wrap(void* data, int width, int height, PixelType type, int channels,
                     std::size_t stride, std::function<void()> release) {
-    Image image = wrap(data, width, height, type, channels, stride, std::shared_ptr<void>());
-    image.owner_ = std::shared_ptr<void>(data, [release](void*) { release(); });
+    Image image = wrap(data, width, height, type, channels, stride, nullptr);
+    const auto owner = std::make_shared<Release>();
+    owner->call.swap(release);  // from here on nothing can fail
+    image.owner_ = std::shared_ptr<void>(owner, data);
     return image;
+  }
+
+  /// Pixels that the caller keeps alive for as long as there is a handle.
+  /// @param data, width, height, type, channels, stride  as above
+  /// @throws ArgumentError as above
+  static Image wrap(void* data, int width, int height, PixelType type, int channels,
+                    std::size_t stride, std::nullptr_t) {
+    return wrap(data, width, height, type, channels, stride, std::shared_ptr<void>());
   }
 
   int width() const noexcept { return width_; }            ///< columns
@@ -91,7 +104,8 @@ class Image {
   std::size_t byteCount() const noexcept {
     return empty() ? 0 : stride_ * (std::size_t(height_) - 1) + rowBytes();
   }
-  /// Whether these are the only handle's pixels: nobody else would see a change.
+  /// Whether no other Image shares the owner of these pixels. Of those that wrap() was given only
+  /// their owner knows who else may see a change.
   bool isUnique() const noexcept { return owner_.use_count() == 1; }
   /// What keeps the pixels alive; null for pixels that the caller keeps.
   const std::shared_ptr<void>& owner() const noexcept { return owner_; }
@@ -171,6 +185,10 @@ class Image {
     copy.owner_ = detail::alignedMemory(copy.byteCount());
     copy.data_ = static_cast<std::uint8_t*>(copy.owner_.get());
     const std::size_t row_bytes = rowBytes();
+    if (isDense()) {
+      std::memcpy(copy.data_, data_, copy.byteCount());
+      return copy;
+    }
     for (int y = 0; y < height_; ++y) std::memcpy(copy.bytes(y), bytes(y), row_bytes);
     return copy;
   }
@@ -197,7 +215,18 @@ class Image {
 
  private:
   // Far below what size_t holds, so that no sum of two such sizes overflows.
-  static constexpr std::uint64_t kMostBytes = std::uint64_t(1) << 47;
+  static constexpr std::uint64_t kMostBytes = std::uint64_t(1)
+                                              << (sizeof(std::size_t) < 8 ? 30 : 47);
+
+  struct Release {
+    Release() = default;
+    Release(const Release&) = delete;
+    Release& operator=(const Release&) = delete;
+    ~Release() {
+      if (call) call();
+    }
+    std::function<void()> call;
+  };
 
   // An image of this shape that has no pixels yet.
   static Image shaped(int width, int height, PixelType type, int channels, std::size_t stride) {
@@ -216,18 +245,18 @@ class Image {
     image.width_ = width;
     image.height_ = height;
     const std::uint64_t row = std::uint64_t(width) * unsigned(channels) * channel_bytes;
-    if (stride == 0) stride = std::size_t(row);
-    if (stride < row || stride % channel_bytes != 0) {
-      throw ArgumentError("stride", "is " + std::to_string(stride) + " bytes, expected " +
-                                        std::to_string(row) +
-                                        " or more, a multiple of the size of a channel");
-    }
-    if (height > 0 && stride > kMostBytes / std::uint64_t(height)) {
+    const std::uint64_t step = stride == 0 ? row : stride;
+    if (height > 0 && std::max(row, step) > kMostBytes / std::uint64_t(height)) {
       throw ArgumentError("size", "is " + std::to_string(width) + " x " + std::to_string(height) +
                                       " pixels of " + std::to_string(channels) +
                                       " channels, more than memory can hold");
     }
-    image.stride_ = stride;
+    if (step < row || step % channel_bytes != 0) {
+      throw ArgumentError("stride", "is " + std::to_string(step) + " bytes, expected " +
+                                        std::to_string(row) +
+                                        " or more, a multiple of the size of a channel");
+    }
+    image.stride_ = step;
     return image;
   }
 

@@ -42,7 +42,7 @@ class ImageMatAllocator : public cv::MatAllocator {
     cv::UMatData* const data = new cv::UMatData(instance());
     data->data = data->origdata = held->bytes();
     data->size = held->byteCount();
-    data->flags = static_cast<cv::UMatData::MemoryFlag>(data->flags | cv::UMatData::USER_ALLOCATED);
+    data->flags |= cv::UMatData::USER_ALLOCATED;
     data->refcount = 1;
     data->userdata = held.release();
     return data;

@@ -36,7 +36,8 @@ class Trajectory {
   /// These poses, in any order.
   /// @throws ArgumentError when two have the same stamp
   explicit Trajectory(std::vector<StampedPose> poses) : poses_(std::move(poses)) {
-    std::stable_sort(poses_.begin(), poses_.end(), isBefore);
+    const bool is_sorted = std::is_sorted(poses_.begin(), poses_.end(), isBefore);
+    if (!is_sorted) std::stable_sort(poses_.begin(), poses_.end(), isBefore);
     const auto twin = std::adjacent_find(poses_.begin(), poses_.end(), isNotBefore);
     if (twin != poses_.end()) failTwin(twin->stamp);
   }
