@@ -19,15 +19,17 @@ constexpr double kGravity = 9.81;  // m/s^2
 constexpr double kHeight = 1.5;    // of the camera, m
 constexpr double kTile = 0.5;      // edge of a tile, m
 
-// One round in `duration` seconds, slow at both ends.
+// One round in `duration` seconds, from rest to rest: velocity and acceleration begin and end at 0.
 struct Motion {
   double radius;
   double duration;
 
-  double angle(double t) const { return kPi * (1 - std::cos(kPi * t / duration)); }
-  double speed(double t) const { return kPi * kPi / duration * std::sin(kPi * t / duration); }
+  double angle(double t) const { return 2 * kPi * t / duration - std::sin(2 * kPi * t / duration); }
+  double speed(double t) const {
+    return 2 * kPi / duration * (1 - std::cos(2 * kPi * t / duration));
+  }
   double acceleration(double t) const {
-    return kPi * kPi * kPi / (duration * duration) * std::cos(kPi * t / duration);
+    return 4 * kPi * kPi / (duration * duration) * std::sin(2 * kPi * t / duration);
   }
   SE3d pose(double t) const {
     const double a = angle(t);

@@ -168,7 +168,7 @@ class IsolationWorker {
     const std::shared_ptr<const Map> map = slam_->map();
     std::vector<char> bytes(1, map ? 1 : 0);
     if (!map) return bytes;
-    const std::vector<char> content = bytesOfMap(*map);
+    const std::vector<std::uint8_t> content = bytesOfMap(*map);
     bytes.insert(bytes.end(), content.begin(), content.end());
     return bytes;
   }

@@ -189,7 +189,8 @@ inline std::shared_ptr<const Map> IsolatedSlam::map() {
       call(detail::MessageKind::map, detail::MessageWriter(), options_.map_limit, "map");
   // The first byte says whether there is one.
   if (bytes.empty() || bytes[0] == 0) return nullptr;
-  return detail::mapOfBytes(std::vector<char>(bytes.begin() + 1, bytes.end()));
+  return detail::mapOfBytes(reinterpret_cast<const std::uint8_t*>(bytes.data()) + 1,
+                            bytes.size() - 1);
 }
 
 inline void IsolatedSlam::finish() {

@@ -2,8 +2,12 @@
 #ifndef GSLAM_CORE_DETAIL_MAP_TRANSPORT_H
 #define GSLAM_CORE_DETAIL_MAP_TRANSPORT_H
 
+#include <gslam/base/span.h>
 #include <gslam/core/map.h>
+#include <gslam/core/map_file.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -11,15 +15,16 @@ namespace gslam {
 inline namespace v1 {
 namespace detail {
 
-// The whole map as bytes.
-inline std::vector<char> bytesOfMap(const Map&) {
-  return {};
+// The whole map as bytes: a map file.
+inline std::vector<std::uint8_t> bytesOfMap(const Map& map) {
+  return mapToBytes(map);
 }
 
 // The map of such bytes.
-// @throws Error when they are damaged
-inline std::shared_ptr<const Map> mapOfBytes(const std::vector<char>&) {
-  return std::make_shared<Map>();
+// @throws ParseError when they are damaged
+inline std::shared_ptr<const Map> mapOfBytes(const std::uint8_t* bytes, std::size_t size) {
+  return std::make_shared<const Map>(
+      mapFromBytes(Span<const std::uint8_t>(bytes, size), "the map of the isolated SLAM system"));
 }
 
 }  // namespace detail
