@@ -68,7 +68,7 @@ class ElfFile {
     }
     for (const ElfW(Shdr) & section : sections) {
       if (section.sh_type != SHT_DYNSYM || section.sh_link >= sections.size()) continue;
-      ElfW(Sym) symbol = ElfW(Sym)();
+      ElfW(Sym) symbol = {};
       if (!findSymbol(section, sections[section.sh_link], name, symbol)) continue;
       return readSymbol(symbol, sections, most, bytes);
     }
