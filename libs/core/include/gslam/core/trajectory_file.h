@@ -4,6 +4,7 @@
 #include <gslam/core/stamp.h>
 #include <gslam/core/trajectory.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <iosfwd>
 #include <string>
