@@ -1,5 +1,4 @@
 // Rigs, frames and samples: what is found, what is missing, and layouts that plugins rely on.
-#include <gmock/gmock.h>
 #include <gslam/core/frame.h>
 #include <gslam/core/rig.h>
 #include <gslam/core/sensor.h>
@@ -13,14 +12,12 @@
 
 namespace {
 
-using gslam::CameraImage;
 using gslam::CameraSensor;
 using gslam::Frame;
 using gslam::ImageKind;
 using gslam::missingSensors;
 using gslam::SensorNeeds;
 using gslam::SensorRig;
-using testing::HasSubstr;
 
 CameraSensor camera(const std::string& name, ImageKind kind, bool calibrated = true) {
   CameraSensor sensor;

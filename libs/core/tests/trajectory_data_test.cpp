@@ -5,10 +5,11 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "test_data.h"
@@ -50,8 +51,12 @@ std::vector<std::vector<std::string>> words(const std::string& path) {
   return lines;
 }
 
+std::string bitsOf(const SE3d& pose) {
+  return std::string(reinterpret_cast<const char*>(&pose), sizeof(pose));
+}
+
 // Seconds, their decimals filled up to nine.
-std::string filledUp(std::string seconds) {
+std::string filledUp(const std::string& seconds) {
   const std::size_t point = seconds.find('.');
   return seconds + std::string(10 - (seconds.size() - point), '0');
 }
@@ -137,7 +142,7 @@ TEST(TrajectoryData, ComesBackToTheBit) {
       ASSERT_EQ(again.size(), t.size());
       for (std::size_t i = 0; i < t.size(); ++i) {
         ASSERT_EQ(again[i].stamp, t[i].stamp);
-        ASSERT_EQ(std::memcmp(&again[i].pose, &t[i].pose, sizeof(SE3d)), 0);
+        ASSERT_EQ(bitsOf(again[i].pose), bitsOf(t[i].pose));
       }
     }
   }

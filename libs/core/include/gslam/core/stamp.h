@@ -4,6 +4,7 @@
 #include <gslam/base/error.h>
 #include <gslam/core/detail/stamp_text.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 

@@ -4,6 +4,7 @@
 #include <gslam/core/stamp.h>
 #include <gslam/core/trajectory.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <iosfwd>
 #include <string>
@@ -26,9 +27,9 @@
 /// Neither depends on the locale.
 ///
 /// **What readers take.** Blanks, tabs or a comma between numbers, also a comma at the end of a
-/// line, ends of lines of any system, a byte order mark, comments from # on, lines without numbers,
-/// and poses in any order of time. EuRoC files have the columns after the pose or not, the same in
-/// each line.
+/// line, lines that end in \\n or \\r\\n, a byte order mark, comments from # on, lines without
+/// numbers, and poses in any order of time. EuRoC files have the columns after the pose or not, the
+/// same in each line.
 ///
 /// **What they refuse**, with a ParseError that names file, line and column, what was found and
 /// what was expected: a file without poses, numbers that are missing, too many, not finite or no

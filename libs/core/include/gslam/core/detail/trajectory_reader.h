@@ -9,7 +9,9 @@
 #include <gslam/svar/detail/json_file.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <istream>
 #include <iterator>
 #include <numeric>

@@ -9,8 +9,10 @@
 #include <gslam/svar/detail/print_number.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <ostream>
 #include <string>
+#include <utility>
 
 namespace gslam {
 inline namespace v1 {
