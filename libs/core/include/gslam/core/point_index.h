@@ -35,7 +35,7 @@ struct VisiblePoint {
 
 /// The positions of the points of a map in a kd-tree: made once for a snapshot, asked often.
 ///
-/// It has no pointer into the map. 1e6 points take about half a second and 32 MB. Points whose
+/// It has no pointer into the map. 1e6 points take about 0.3 s and 32 MB. Points whose
 /// position is not finite are left out.
 ///
 /// Thread-safety: it does not change; many threads may ask.

@@ -45,6 +45,7 @@ class ByteSource {
     } else {
       errno = 0;
       file_.read(reinterpret_cast<char*>(bytes), static_cast<std::streamsize>(count));
+      if (file_.eof()) throw FileError(name_, "became shorter while it was read");
       if (!file_) throw FileError(name_, "cannot be read", errno);
     }
     offset_ += count;
