@@ -1,9 +1,16 @@
 // Instantiates the templates of GSLAM::core; compiled alone under every compiler and standard by
 // tests/headers.
 #include <gslam/core.h>
+#include <gslam/core/isolated_slam.h>
+#include <gslam/core/isolation_worker.h>
+#include <gslam/core/map_file.h>
+#include <gslam/core/open_dataset.h>
+#include <gslam/core/ply.h>
+#include <gslam/core/trajectory_file.h>
 
 #include <cstdint>
 #include <istream>
+#include <memory>
 #include <ostream>
 #include <string>
 
@@ -54,4 +61,27 @@ double instantiateGeodesy(const gslam::Geodetic& place);
 double instantiateGeodesy(const gslam::Geodetic& place) {
   const gslam::EnuFrame frame(place);
   return frame.toGeodetic(frame.fromGeodetic(place)).altitude + frame.T_ecef_enu().log()[0];
+}
+
+std::size_t instantiateMaps(gslam::Map& map, const std::string& path);
+
+std::size_t instantiateMaps(gslam::Map& map, const std::string& path) {
+  gslam::SharedMap shared(gslam::loadMap(path));
+  map.transform(gslam::SIM3d());
+  map.merge(map.add(gslam::MapPoint()), map.add(gslam::MapPoint()));
+  gslam::saveMap(path, map);
+  gslam::savePly(path, map);
+  return gslam::keyframeTrajectory(*shared.publish()).size() + gslam::loadPly(path).size();
+}
+
+int instantiatePlugins(int argc, const char* const* argv, const std::string& path);
+
+int instantiatePlugins(int argc, const char* const* argv, const std::string& path) {
+  if (gslam::isIsolationWorker(argc, argv)) return gslam::runIsolationWorker(argc, argv);
+  gslam::Plugins plugins;
+  const std::unique_ptr<gslam::Dataset> dataset = gslam::openDataset(plugins, path);
+  gslam::IsolatedSlam slam{gslam::IsolationOptions()};
+  const gslam::Messenger messenger;
+  gslam::Player player(*dataset, messenger);
+  return int(gslam::runSlam(slam, player, *dataset, gslam::RunSetup(), messenger).poses.size());
 }
