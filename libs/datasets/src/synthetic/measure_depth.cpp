@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "hash.h"
 #include "sensor_image.h"
@@ -25,9 +26,17 @@ class DepthRow {
   }
 
   // Metres; 0 where there is none.
-  float at(int u, int v) const {
-    const RayTile& tile = rays_.tile(u / kTileWidth, v / kTileHeight);
-    const int i = v % kTileHeight * kTileWidth + u % kTileWidth;
+  void measure(int v, float* out) const {
+    for (int column = 0; column < rays_.tileColumns(); ++column) {
+      const RayTile& tile = rays_.tile(column, v / kTileHeight);
+      const int first = v % kTileHeight * kTileWidth, u = column * kTileWidth;
+      const int count = std::min(kTileWidth, picture_.width - u);
+      for (int x = 0; x < count; ++x) out[u + x] = at(tile, first + x, u + x, v);
+    }
+  }
+
+ private:
+  float at(const RayTile& tile, int i, int u, int v) const {
     const int place = v * picture_.width + u;
     float depth = picture_.distance[static_cast<std::size_t>(place)] * tile.z[i];
     const bool is_seen = depth >= kNearest && depth <= farthest_ && tile.pitch[i] > 0;
@@ -40,7 +49,6 @@ class DepthRow {
     return depth;
   }
 
- private:
   bool isHidden(int u, int v) const {
     if (sensor_.occluder.radius <= 0) return false;
     const float x = static_cast<float>(u) - sensor_.occluder.u;
@@ -68,14 +76,13 @@ Image measureDepth(const Picture& picture, const Rays& rays, const DepthSensor& 
       0, static_cast<std::size_t>(picture.height),
       [&](std::size_t row) {
         const int v = static_cast<int>(row);
-        if (sensor.is_float) {
-          float* const out = image.row<float>(v);
-          for (int u = 0; u < picture.width; ++u) out[u] = depth.at(u, v);
-        } else {
-          std::uint16_t* const out = image.row<std::uint16_t>(v);
-          for (int u = 0; u < picture.width; ++u) {
-            out[u] = static_cast<std::uint16_t>(std::min(depth.at(u, v) * scale + 0.5F, 65535.0F));
-          }
+        if (sensor.is_float) return depth.measure(v, image.row<float>(v));
+        std::vector<float> metres(static_cast<std::size_t>(picture.width));
+        depth.measure(v, metres.data());
+        std::uint16_t* const out = image.row<std::uint16_t>(v);
+        for (std::size_t u = 0; u < metres.size(); ++u) {
+          out[u] = static_cast<std::uint16_t>(
+              static_cast<int>(std::min(metres[u] * scale + 0.5F, 65535.0F)));
         }
       },
       options);

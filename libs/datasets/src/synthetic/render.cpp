@@ -60,7 +60,11 @@ const Picture& Renderer::render(const Scene& scene, const SE3d& T_world_camera, 
       0, static_cast<std::size_t>(rays_->tileRows()),
       [&](std::size_t row) {
         for (int column = 0; column < rays_->tileColumns(); ++column) {
-          shadeTile(view, column, static_cast<int>(row), motion, options.motion);
+          shadePixels(view, column, static_cast<int>(row));
+          if (options.motion) {
+            setMotion(rays_->tile(column, static_cast<int>(row)), motion, column,
+                      static_cast<int>(row));
+          }
         }
       },
       parallel);
@@ -100,21 +104,60 @@ void Renderer::traceBlock(const View& view, std::size_t block) {
   }
 }
 
-void Renderer::shadeTile(const View& view, int column, int row, const CameraMotion& motion,
-                         bool has_motion) {
+void Renderer::shadePixels(const View& view, int column, int row) {
   const RayTile& tile = rays_->tile(column, row);
   const std::vector<std::int32_t>& candidates = candidates_[rays_->index(column, row)];
+  const int first_u = column * kTileWidth, first_v = row * kTileHeight;
+  if (shadeUniform(view, tile, first_u, first_v, candidates)) return;
   for (int i = 0; i < kTileSize; ++i) {
-    const int u = column * kTileWidth + i % kTileWidth, v = row * kTileHeight + i / kTileWidth;
+    const int u = first_u + i % kTileWidth, v = first_v + i / kTileWidth;
     if (u >= picture_.width || v >= picture_.height) continue;
-    const Colour colour = shadePixel(view, tile, i, u, v, candidates);
-    const auto at = static_cast<std::size_t>(v * picture_.width + u);
-    picture_.brightness[0][at] = picture_.is_colour ? colour.r : greyOf(colour);
-    if (!picture_.is_colour) continue;
-    picture_.brightness[1][at] = colour.g;
-    picture_.brightness[2][at] = colour.b;
+    store(static_cast<std::size_t>(v * picture_.width + u),
+          shadePixel(view, tile, i, u, v, candidates));
   }
-  if (has_motion) setMotion(tile, motion, column, row);
+}
+
+void Renderer::store(std::size_t at, const Colour& colour) {
+  picture_.brightness[0][at] = picture_.is_colour ? colour.r : greyOf(colour);
+  if (!picture_.is_colour) return;
+  picture_.brightness[1][at] = colour.g;
+  picture_.brightness[2][at] = colour.b;
+}
+
+// A whole tile that sees one surface; its edges may be on the tile's border only.
+bool Renderer::shadeUniform(const View& view, const RayTile& tile, int first_u, int first_v,
+                            const std::vector<std::int32_t>& candidates) {
+  if (first_u + kTileWidth > picture_.width || first_v + kTileHeight > picture_.height) {
+    return false;
+  }
+  const auto width = static_cast<std::size_t>(picture_.width);
+  const std::size_t first = static_cast<std::size_t>(first_v) * width + static_cast<std::size_t>(first_u);
+  const std::int32_t k = primitive_[first];
+  if (k < 0) return false;
+  float distances[kTileSize];
+  for (std::size_t y = 0; y < kTileHeight; ++y) {
+    for (std::size_t x = 0; x < kTileWidth; ++x) {
+      if (primitive_[first + y * width + x] != k) return false;
+      distances[y * kTileWidth + x] = picture_.distance[first + y * width + x];
+    }
+  }
+  TileShades shades;
+  const SeenPrimitive& primitive = view.primitives[static_cast<std::size_t>(k)];
+  detail::synthetic::shadeTile(view, primitive, tile, distances, shades);
+  const Surface& surface = primitive.from->surface;
+  for (int i = 0; i < kTileSize; ++i) {
+    const int x = i % kTileWidth, y = i / kTileWidth;
+    const bool is_border = x == 0 || y == 0 || x == kTileWidth - 1 || y == kTileHeight - 1;
+    const std::size_t at = first + static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
+    if (!(tile.pitch[i] > 0)) {
+      store(at, {0, 0, 0});
+    } else if (is_border && isEdge(first_u + x, first_v + y)) {
+      store(at, shadeEdge(view, tile, i, candidates));
+    } else {
+      store(at, mixed(surface.dark, surface.bright, shades.part[i]) * shades.light[i]);
+    }
+  }
+  return true;
 }
 
 Colour Renderer::shadePixel(const View& view, const RayTile& tile, int i, int u, int v,

@@ -54,7 +54,10 @@ class Renderer {
   static constexpr int kBlock = 4;  // tiles along the edge of a block
 
   void traceBlock(const View& view, std::size_t block);
-  void shadeTile(const View& view, int column, int row, const CameraMotion& motion, bool has_motion);
+  void shadePixels(const View& view, int column, int row);
+  bool shadeUniform(const View& view, const RayTile& tile, int first_u, int first_v,
+                    const std::vector<std::int32_t>& candidates);
+  void store(std::size_t at, const Colour& colour);
   Colour shadePixel(const View& view, const RayTile& tile, int i, int u, int v,
                     const std::vector<std::int32_t>& candidates) const;
   bool isEdge(int u, int v) const;

@@ -1,4 +1,4 @@
-// The colour of a point of a surface, or of the sky.
+// The colours of points of a surface, or of the sky.
 #ifndef GSLAM_DATASETS_SRC_SYNTHETIC_SHADE_H
 #define GSLAM_DATASETS_SRC_SYNTHETIC_SHADE_H
 
@@ -9,12 +9,20 @@ inline namespace v1 {
 namespace detail {
 namespace synthetic {
 
+/// Red, green, blue: 0 to 255, brighter where light is strong.
 /// @param ray       direction of length 1, camera coordinates
 /// @param distance  along it
 /// @param pitch     radians from pixel to pixel: what is finer is averaged
-/// @return red, green, blue: 0 to 255, brighter where light is strong
 Colour shade(const View& view, const SeenPrimitive& primitive, const Vec3f& ray, float distance,
              float pitch);
+
+/// The same for all rays of a tile that sees nothing else: the brightness of the texture, 0 to 1,
+/// and the light on it. (So that its arithmetic is done for several pixels at a time.)
+struct TileShades {
+  float part[kTileSize], light[kTileSize];
+};
+void shadeTile(const View& view, const SeenPrimitive& primitive, const RayTile& rays,
+               const float* distances, TileShades& shades);
 
 /// The sky, or the ground far away, in a direction of length 1, camera coordinates.
 Colour shadeSky(const View& view, const Vec3f& ray);
