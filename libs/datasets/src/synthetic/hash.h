@@ -65,6 +65,22 @@ class NormalTable {
   float operator()(std::uint32_t hash) const {
     return half_[hash & (kSize - 1)] + half_[(hash >> 11) & (kSize - 1)];
   }
+  /// Adds to a row of numbers, each times `scale`, by its place in the image.
+  /// @param first  place of the first
+  void addTo(float* row, const float* scale, int count, std::uint32_t first,
+             std::uint64_t key) const {
+    constexpr int kStep = 64;
+    const auto a = static_cast<std::uint32_t>(key), b = static_cast<std::uint32_t>(key >> 32);
+    std::uint32_t hashes[kStep];
+    for (int begin = 0; begin < count; begin += kStep) {
+      const std::uint32_t place = first + static_cast<std::uint32_t>(begin);
+      for (std::uint32_t i = 0; i < kStep; ++i) {
+        hashes[i] = mix32(mix32((place + i) * 0x9E3779B9U ^ a) + b);
+      }
+      const int n = count - begin < kStep ? count - begin : kStep;
+      for (int i = 0; i < n; ++i) row[begin + i] += scale[begin + i] * (*this)(hashes[i]);
+    }
+  }
 
  private:
   static constexpr std::uint32_t kSize = 2048;

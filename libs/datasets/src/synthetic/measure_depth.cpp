@@ -19,48 +19,55 @@ class DepthRow {
  public:
   DepthRow(const Picture& picture, const Rays& rays, const DepthSensor& sensor)
       : picture_(picture), rays_(rays), sensor_(sensor),
-        farthest_(sensor.is_float ? 1e30F : static_cast<float>(65535 * sensor.unit)),
-        noise_a_(static_cast<std::uint32_t>(sensor.key)),
-        noise_b_(static_cast<std::uint32_t>(sensor.key >> 32)) {
+        farthest_(sensor.is_float ? 1e30F : static_cast<float>(65535 * sensor.unit)) {
     if (sensor.farthest > 0) farthest_ = std::min(farthest_, sensor.farthest);
   }
 
   // Metres; 0 where there is none.
   void measure(int v, float* out) const {
+    const int width = picture_.width;
+    const float* const distance = &picture_.distance[static_cast<std::size_t>(v * width)];
     for (int column = 0; column < rays_.tileColumns(); ++column) {
       const RayTile& tile = rays_.tile(column, v / kTileHeight);
       const int first = v % kTileHeight * kTileWidth, u = column * kTileWidth;
-      const int count = std::min(kTileWidth, picture_.width - u);
-      for (int x = 0; x < count; ++x) out[u + x] = at(tile, first + x, u + x, v);
+      const int count = std::min(kTileWidth, width - u);
+      for (int x = 0; x < count; ++x) {
+        out[u + x] = tile.pitch[first + x] > 0 ? distance[u + x] * tile.z[first + x] : 0;
+      }
     }
+    cut(out);
+    if (sensor_.noise > 0) {
+      std::vector<float> scale(static_cast<std::size_t>(width));
+      for (int u = 0; u < width; ++u) {
+        scale[static_cast<std::size_t>(u)] = sensor_.noise * out[u] * out[u];
+      }
+      NormalTable::get().addTo(out, scale.data(), width, static_cast<std::uint32_t>(v * width),
+                               sensor_.key);
+      cut(out);
+    }
+    hide(v, out);
   }
 
  private:
-  float at(const RayTile& tile, int i, int u, int v) const {
-    const int place = v * picture_.width + u;
-    float depth = picture_.distance[static_cast<std::size_t>(place)] * tile.z[i];
-    const bool is_seen = depth >= kNearest && depth <= farthest_ && tile.pitch[i] > 0;
-    if (!is_seen || isHidden(u, v)) return 0;
-    if (sensor_.noise > 0) {
-      const std::uint32_t key = static_cast<std::uint32_t>(place) * 0x9E3779B9U ^ noise_a_;
-      depth += sensor_.noise * depth * depth * NormalTable::get()(mix32(mix32(key) + noise_b_));
-      if (!(depth >= kNearest && depth <= farthest_)) return 0;
+  void cut(float* out) const {
+    for (int u = 0; u < picture_.width; ++u) {
+      out[u] = (out[u] >= kNearest) & (out[u] <= farthest_) ? out[u] : 0;
     }
-    return depth;
   }
 
-  bool isHidden(int u, int v) const {
-    if (sensor_.occluder.radius <= 0) return false;
-    const float x = static_cast<float>(u) - sensor_.occluder.u;
-    const float y = static_cast<float>(v) - sensor_.occluder.v;
-    return x * x + y * y < sensor_.occluder.radius * sensor_.occluder.radius;
+  void hide(int v, float* out) const {
+    const Occluder& dark = sensor_.occluder;
+    if (dark.radius <= 0) return;
+    for (int u = 0; u < picture_.width; ++u) {
+      const float x = static_cast<float>(u) - dark.u, y = static_cast<float>(v) - dark.v;
+      if (x * x + y * y < dark.radius * dark.radius) out[u] = 0;
+    }
   }
 
   const Picture& picture_;
   const Rays& rays_;
   const DepthSensor& sensor_;
   float farthest_;
-  std::uint32_t noise_a_, noise_b_;
 };
 
 }  // namespace

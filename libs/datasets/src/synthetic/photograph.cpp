@@ -17,14 +17,13 @@ namespace {
 constexpr float kMiddleGrey = 112;
 constexpr float kOccluderGrey = 22;
 constexpr int kMostSamples = 16;
+constexpr std::uint64_t kChannelStep = 0x68E31DA4B5297A4DU;
 
 class Photograph {
  public:
   Photograph(const Picture& picture, ImageKind kind, const Exposure& exposure)
       : picture_(picture), exposure_(exposure), channels_(kind == ImageKind::grey ? 1 : 3),
-        is_bgr_(kind == ImageKind::bgr),
-        noise_a_(static_cast<std::uint32_t>(exposure.key)),
-        noise_b_(static_cast<std::uint32_t>(exposure.key >> 32)) {}
+        is_bgr_(kind == ImageKind::bgr) {}
 
   void makeRow(int v, std::uint8_t* out) const {
     const auto width = static_cast<std::size_t>(picture_.width);
@@ -47,42 +46,40 @@ class Photograph {
   // The mean along the way of each pixel's light while the shutter is open, around its middle.
   void smear(int v, float* const* planes) const {
     const auto first = static_cast<std::size_t>(v) * static_cast<std::size_t>(picture_.width);
+    for (int c = 0; c < channels_; ++c) {
+      const std::vector<float>& plane = picture_.brightness[static_cast<std::size_t>(c)];
+      std::copy_n(plane.begin() + static_cast<std::ptrdiff_t>(first), picture_.width, planes[c]);
+    }
+    if (exposure_.seconds <= 0 || picture_.width < 2 || picture_.height < 2) return;
     for (int u = 0; u < picture_.width; ++u) {
       const std::size_t at = first + static_cast<std::size_t>(u);
-      float du = 0, dv = 0;
-      if (exposure_.seconds > 0) {
-        du = picture_.move_u[at] * exposure_.seconds;
-        dv = picture_.move_v[at] * exposure_.seconds;
-      }
+      const float du = picture_.move_u[at] * exposure_.seconds;
+      const float dv = picture_.move_v[at] * exposure_.seconds;
       const float length = std::max(std::fabs(du), std::fabs(dv));
-      const bool is_sharp = length < 0.25F;
-      const int count = is_sharp ? 1 : std::min(kMostSamples, 2 + static_cast<int>(length));
+      if (length < 0.3F) continue;
+      const int count = std::min(kMostSamples, 2 + static_cast<int>(length));
+      const float step = 1 / static_cast<float>(count);
       std::array<float, 3> sum{};
-      for (int k = 0; k < count && !is_sharp; ++k) {
-        const float part = (static_cast<float>(k) + 0.5F) / static_cast<float>(count) - 0.5F;
+      for (int k = 0; k < count; ++k) {
+        const float part = (static_cast<float>(k) + 0.5F) * step - 0.5F;
         addSample(static_cast<float>(u) + part * du, static_cast<float>(v) + part * dv, sum);
       }
-      for (std::size_t c = 0; c < static_cast<std::size_t>(channels_); ++c) {
-        planes[c][u] = is_sharp ? picture_.brightness[c][at] : sum[c] / static_cast<float>(count);
-      }
+      for (int c = 0; c < channels_; ++c) planes[c][u] = sum[static_cast<std::size_t>(c)] * step;
     }
   }
 
   void addSample(float u, float v, std::array<float, 3>& sum) const {
-    u = std::min(std::max(u, 0.0F), static_cast<float>(picture_.width - 1));
-    v = std::min(std::max(v, 0.0F), static_cast<float>(picture_.height - 1));
-    const int x = std::max(std::min(static_cast<int>(u), picture_.width - 2), 0);
-    const int y = std::max(std::min(static_cast<int>(v), picture_.height - 2), 0);
+    // Below the last whole number, so that there are four pixels around it.
+    u = std::min(std::max(u, 0.0F), static_cast<float>(picture_.width) - 1.001F);
+    v = std::min(std::max(v, 0.0F), static_cast<float>(picture_.height) - 1.001F);
+    const int x = static_cast<int>(u), y = static_cast<int>(v);
     const float fx = u - static_cast<float>(x), fy = v - static_cast<float>(y);
-    const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.width) +
-                    static_cast<std::size_t>(x);
-    const std::size_t right = picture_.width > 1 ? 1 : 0;
-    const std::size_t below = picture_.height > 1 ? static_cast<std::size_t>(picture_.width) : 0;
-    for (std::size_t c = 0; c < static_cast<std::size_t>(channels_); ++c) {
-      const float* const p = &picture_.brightness[c][at];
-      const float upper = p[0] + fx * (p[right] - p[0]);
-      const float lower = p[below] + fx * (p[below + right] - p[below]);
-      sum[c] += upper + fy * (lower - upper);
+    const std::ptrdiff_t width = picture_.width;
+    for (int c = 0; c < channels_; ++c) {
+      const float* const p = picture_.brightness[static_cast<std::size_t>(c)].data() + y * width + x;
+      const float upper = p[0] + fx * (p[1] - p[0]);
+      const float lower = p[width] + fx * (p[width + 1] - p[width]);
+      sum[static_cast<std::size_t>(c)] += upper + fy * (lower - upper);
     }
   }
 
@@ -109,20 +106,16 @@ class Photograph {
 
   void addNoise(int v, int channel, float* row) const {
     if (exposure_.noise <= 0) return;
-    const NormalTable& normal = NormalTable::get();
-    const auto first = static_cast<std::uint32_t>(v * picture_.width);
-    const std::uint32_t key = noise_b_ + static_cast<std::uint32_t>(channel) * 0x68E31DA4U;
-    for (int u = 0; u < picture_.width; ++u) {
-      const std::uint32_t place = (first + static_cast<std::uint32_t>(u)) * 0x9E3779B9U;
-      row[u] += exposure_.noise * normal(mix32(mix32(place ^ noise_a_) + key));
-    }
+    const std::vector<float> scale(static_cast<std::size_t>(picture_.width), exposure_.noise);
+    const std::uint64_t key = exposure_.key + static_cast<std::uint64_t>(channel) * kChannelStep;
+    NormalTable::get().addTo(row, scale.data(), picture_.width,
+                             static_cast<std::uint32_t>(v * picture_.width), key);
   }
 
   const Picture& picture_;
   const Exposure& exposure_;
   int channels_;
   bool is_bgr_;
-  std::uint32_t noise_a_, noise_b_;
 };
 
 }  // namespace
