@@ -1,0 +1,10 @@
+#ifndef GSLAM_DATASETS_H
+#define GSLAM_DATASETS_H
+
+/// @file
+/// All of GSLAM::datasets.
+
+#include <gslam/datasets/synthetic.h>
+#include <gslam/datasets/version.h>
+
+#endif  // GSLAM_DATASETS_H
