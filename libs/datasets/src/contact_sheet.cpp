@@ -19,10 +19,10 @@ inline namespace v1 {
 namespace {
 
 const cv::Scalar kPaper(40, 40, 40), kInk(230, 230, 230), kPaleInk(160, 160, 160),
-    kAlarm(80, 110, 255);     // blue, green, red
-constexpr int kGap = 6;       // pixels between frames
-constexpr int kStrip = 16;    // pixels of a line of text
-constexpr int kTileGap = 2;   // pixels between the images of a frame
+    kAlarm(80, 110, 255);    // blue, green, red
+constexpr int kGap = 6;      // pixels between frames
+constexpr int kStrip = 16;   // pixels of a line of text
+constexpr int kTileGap = 2;  // pixels between the images of a frame
 constexpr int kLeastTile = 200;
 
 // What has a place on the sheet: a frame, or why there is none.
@@ -65,13 +65,26 @@ std::vector<Cell> readCells(Dataset& dataset, std::size_t most) {
   return cells;
 }
 
-bool isRange(ImageKind kind) { return kind == ImageKind::depth || kind == ImageKind::disparity; }
+// The pixels in a type that OpenCV has operations for: of half floats it has hardly any, and with
+// some it calls what is not there.
+cv::Mat pixelsOf(const CameraImage& image) {
+  const cv::Mat mat = toOpenCv(image.image);
+  if (image.image.type() != PixelType::f16) return mat;
+  const cv::Mat halves(mat.rows, mat.cols, CV_MAKETYPE(CV_16S, mat.channels()), mat.data, mat.step);
+  cv::Mat floats;
+  cv::convertFp16(halves, floats);
+  return floats;
+}
+
+bool isRange(ImageKind kind) {
+  return kind == ImageKind::depth || kind == ImageKind::disparity;
+}
 
 // Metres, or pixels of disparity; not positive or NaN where there is none.
 cv::Mat distances(const CameraImage& image) {
   cv::Mat result;
   const bool has_scale = image.kind == ImageKind::depth && image.depth_scale > 0;
-  cv::Mat pixels = toOpenCv(image.image);
+  cv::Mat pixels = pixelsOf(image);
   if (pixels.channels() > 1) cv::extractChannel(pixels, pixels, 0);
   pixels.convertTo(result, CV_32F, has_scale ? image.depth_scale : 1);
   return result;
@@ -87,7 +100,8 @@ Range rangeOf(const std::vector<Cell>& cells, ImageKind kind) {
   for (const Cell& cell : cells) {
     if (cell.frame == nullptr) continue;
     for (const CameraImage& image : cell.frame->images) {
-      if (image.kind != kind || image.image.empty()) continue;
+      if (image.kind != kind || image.image.empty() || image.image.type() > PixelType::f16)
+        continue;
       const cv::Mat d = distances(image);
       const int step = std::max(1, int(std::sqrt(double(d.total()) / 4000)));
       for (int y = 0; y < d.rows; y += step) {
@@ -148,7 +162,7 @@ cv::Mat narrowed(const cv::Mat& mat) {
 }
 
 cv::Mat paintPhotograph(const CameraImage& image) {
-  const cv::Mat pixels = narrowed(toOpenCv(image.image));
+  const cv::Mat pixels = narrowed(pixelsOf(image));
   cv::Mat bgr;
   switch (pixels.channels()) {
     case 1:
@@ -172,7 +186,7 @@ cv::Mat paintPhotograph(const CameraImage& image) {
 // Labels get colours that differ for numbers that are near.
 cv::Mat paintLabels(const CameraImage& image) {
   cv::Mat numbers, colours;
-  toOpenCv(image.image).convertTo(numbers, CV_32S);
+  pixelsOf(image).convertTo(numbers, CV_32S);
   if (numbers.channels() > 1) cv::extractChannel(numbers, numbers, 0);
   cv::Mat index(numbers.size(), CV_8U);
   for (int y = 0; y < numbers.rows; ++y) {
@@ -270,8 +284,8 @@ class Sheet {
     }
     try {
       const cv::Mat painted = paint(image);
-      const double scale = std::min(double(tile_width_) / painted.cols,
-                                    double(tile_height_) / painted.rows);
+      const double scale =
+          std::min(double(tile_width_) / painted.cols, double(tile_height_) / painted.rows);
       const cv::Size size(std::clamp(int(std::lround(painted.cols * scale)), 1, tile_width_),
                           std::clamp(int(std::lround(painted.rows * scale)), 1, tile_height_));
       const int method = scale > 1 || isRange(image.kind) || image.kind == ImageKind::label

@@ -22,7 +22,8 @@ bool describePinhole(const Camera& camera, PinholeText& text) {
   text.intrinsics.assign(values.begin(), values.begin() + 4);
   text.coefficients.assign(values.begin() + 4, values.end());
   text.distortion = model == "pinhole" ? "none" : model == "radtan" ? "radtan" : "equidistant";
-  while (text.coefficients.size() > 4 && text.coefficients.back() == 0) text.coefficients.pop_back();
+  while (text.coefficients.size() > 4 && text.coefficients.back() == 0)
+    text.coefficients.pop_back();
   return true;
 }
 
@@ -57,7 +58,9 @@ std::string dsoCameraText(const Camera& camera) {
   return word + joined(values, " ") + "\n" + size + mode + "\n" + size;
 }
 
-const char* dsoCameraModels() { return "pinhole, fov, radtan with k1 k2 p1 p2, or kannala_brandt"; }
+const char* dsoCameraModels() {
+  return "pinhole, fov, radtan with k1 k2 p1 p2, or kannala_brandt";
+}
 
 }  // namespace exporting
 }  // namespace v1

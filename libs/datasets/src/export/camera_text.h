@@ -26,8 +26,8 @@ bool describePinhole(const Camera& camera, PinholeText& text);
 /// Numbers with a separator between each two.
 std::string joined(const std::vector<double>& values, const char* separator);
 
-/// camera.txt of TUM's mono and visual-inertial datasets, as DSO reads it: parameters relative to the
-/// size of the image, whose first pixel goes from 0 to 1 there, and the same size for what is
+/// camera.txt of TUM's mono and visual-inertial datasets, as DSO reads it: parameters relative to
+/// the size of the image, whose first pixel goes from 0 to 1 there, and the same size for what is
 /// undistorted. Empty for a camera that it has no words for.
 std::string dsoCameraText(const Camera& camera);
 

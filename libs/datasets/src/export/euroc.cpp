@@ -24,8 +24,9 @@ const char* const kTruthHead =
     "b_w_RS_S_y [rad s^-1], b_w_RS_S_z [rad s^-1], b_a_RS_S_x [m s^-2], b_a_RS_S_y [m s^-2], "
     "b_a_RS_S_z [m s^-2]";
 
+// b is not before a.
 double secondsBetween(const StampedPose& a, const StampedPose& b) {
-  return (double(b.stamp) - double(a.stamp)) * 1e-9;
+  return double(nanosecondsBetween(a.stamp, b.stamp)) * 1e-9;
 }
 
 // Velocity at pose i, of the parabola through three poses; at an end the outer one of them.
@@ -41,8 +42,8 @@ Vec3d velocityAt(const std::vector<StampedPose>& poses, std::size_t i) {
   const double h0 = secondsBetween(poses[middle - 1], poses[middle]);
   const double h1 = secondsBetween(poses[middle], poses[middle + 1]);
   const Vec3d bend = (1 / (h0 + h1)) * (after - before);
-  return before + secondsBetween(poses[middle - 1], poses[i]) * bend +
-         secondsBetween(poses[middle], poses[i]) * bend;
+  if (i < middle) return before - h0 * bend;
+  return i == middle ? before + h0 * bend : after + h1 * bend;
 }
 
 class Euroc : public Layout {
@@ -133,7 +134,9 @@ class Euroc : public Layout {
 
 }  // namespace
 
-std::unique_ptr<Layout> makeEuroc(Source& source) { return std::make_unique<Euroc>(source); }
+std::unique_ptr<Layout> makeEuroc(Source& source) {
+  return std::make_unique<Euroc>(source);
+}
 
 }  // namespace exporting
 }  // namespace v1

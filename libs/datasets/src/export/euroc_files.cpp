@@ -24,12 +24,13 @@ std::string cameraYaml(const CameraSensor& sensor, const SE3d& T_base_camera, do
   describePinhole(sensor.camera, model);
   if (model.distortion == "none") model.coefficients.assign(4, 0);
   const bool is_fisheye = model.distortion == "equidistant";
-  return std::string(kYaml) + "# General sensor definitions.\nsensor_type: camera\ncomment: " +
-         oneLine(sensor.name) + "\n\n# Sensor extrinsics wrt. the body-frame.\n" +
-         poseYaml(T_base_camera) + "\n# Camera specific definitions.\nrate_hz: " +
-         numberText(rate) + "\nresolution: [" + std::to_string(sensor.camera.width()) + ", " +
-         std::to_string(sensor.camera.height()) + "]\ncamera_model: pinhole\nintrinsics: [" +
-         joined(model.intrinsics, ", ") + "] #fu, fv, cu, cv\ndistortion_model: " +
+  return std::string(kYaml) +
+         "# General sensor definitions.\nsensor_type: camera\ncomment: " + oneLine(sensor.name) +
+         "\n\n# Sensor extrinsics wrt. the body-frame.\n" + poseYaml(T_base_camera) +
+         "\n# Camera specific definitions.\nrate_hz: " + numberText(rate) + "\nresolution: [" +
+         std::to_string(sensor.camera.width()) + ", " + std::to_string(sensor.camera.height()) +
+         "]\ncamera_model: pinhole\nintrinsics: [" + joined(model.intrinsics, ", ") +
+         "] #fu, fv, cu, cv\ndistortion_model: " +
          (is_fisheye ? "equidistant" : "radial-tangential") + "\ndistortion_coefficients: [" +
          joined(model.coefficients, ", ") + "]\n";
 }
@@ -39,11 +40,10 @@ std::string imuYaml(const ImuCalibration& imu, const SE3d& T_base_imu, double ra
          "sensor_type: imu\ncomment: inertial unit\n\n# Sensor extrinsics wrt. the body-frame.\n" +
          poseYaml(T_base_imu) + "rate_hz: " + numberText(rate) +
          "\n\n# inertial sensor noise model parameters (static)\ngyroscope_noise_density: " +
-         numberText(imu.gyro_noise) + "  # [ rad / s / sqrt(Hz) ]\ngyroscope_random_walk: " +
-         numberText(imu.gyro_bias_walk) +
+         numberText(imu.gyro_noise) +
+         "  # [ rad / s / sqrt(Hz) ]\ngyroscope_random_walk: " + numberText(imu.gyro_bias_walk) +
          "  # [ rad / s^2 / sqrt(Hz) ]\naccelerometer_noise_density: " +
-         numberText(imu.accel_noise) +
-         "  # [ m / s^2 / sqrt(Hz) ]\naccelerometer_random_walk: " +
+         numberText(imu.accel_noise) + "  # [ m / s^2 / sqrt(Hz) ]\naccelerometer_random_walk: " +
          numberText(imu.accel_bias_walk) + "  # [ m / s^3 / sqrt(Hz) ]\n";
 }
 

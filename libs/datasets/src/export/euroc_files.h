@@ -23,7 +23,7 @@ class RateMeter {
   std::size_t count() const noexcept { return count_; }
   /// Per second; 0: unknown.
   double rate() const noexcept {
-    const double seconds = (double(last_) - double(first_)) * 1e-9;
+    const double seconds = double(nanosecondsBetween(first_, last_)) * 1e-9;
     return count_ < 2 || !(seconds > 0) ? 0 : double(count_ - 1) / seconds;
   }
 

@@ -83,7 +83,8 @@ class Exporter {
       frame = dataset_.next();
       return true;
     } catch (const Error& error) {
-      fail(std::string("cannot be read: ") + error.what(), "cannot be read, such as ", error.what());
+      fail(std::string("cannot be read: ") + error.what(), "cannot be read, such as ",
+           error.what());
       return false;
     }
   }

@@ -106,7 +106,9 @@ bool ExportFolder::link(const std::string& target, const std::string& name) {
   return !error;
 }
 
-void ExportFolder::makeFolder(const std::string& name) { makeFolders(path_ + "/" + name); }
+void ExportFolder::makeFolder(const std::string& name) {
+  makeFolders(path_ + "/" + name);
+}
 
 void ExportFolder::remove(const std::string& name) {
   texts_.erase(name);

@@ -93,7 +93,9 @@ class Icl : public Layout {
 
 }  // namespace
 
-std::unique_ptr<Layout> makeIcl(Source& source) { return std::make_unique<Icl>(source); }
+std::unique_ptr<Layout> makeIcl(Source& source) {
+  return std::make_unique<Icl>(source);
+}
 
 }  // namespace exporting
 }  // namespace v1

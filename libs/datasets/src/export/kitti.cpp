@@ -86,7 +86,7 @@ class Kitti : public Layout {
     for (std::size_t i = 0; i < images_.size(); ++i) {
       folder_->write(imageFolder(i) + name, images_[i]);
     }
-    times_->line(secondsText(stamp_ - first_stamp_));
+    times_->line(secondsText(static_cast<std::int64_t>(nanosecondsBetween(first_stamp_, stamp_))));
     addPose();
     ++index_;
   }
@@ -99,9 +99,7 @@ class Kitti : public Layout {
   }
 
  private:
-  std::string below(const std::string& name) const {
-    return "sequences/" + sequence_ + "/" + name;
-  }
+  std::string below(const std::string& name) const { return "sequences/" + sequence_ + "/" + name; }
   std::string imageFolder(std::size_t camera) const {
     return below("image_" + std::to_string(camera));
   }
@@ -155,7 +153,9 @@ class Kitti : public Layout {
 
 }  // namespace
 
-std::unique_ptr<Layout> makeKitti(Source& source) { return std::make_unique<Kitti>(source); }
+std::unique_ptr<Layout> makeKitti(Source& source) {
+  return std::make_unique<Kitti>(source);
+}
 
 }  // namespace exporting
 }  // namespace v1

@@ -16,7 +16,8 @@ namespace exporting {
 
 inline void notePhotometric(Source& source) {
   source.notes.remark(
-      "brightness: how the camera responds is not known; pcalib.txt is a straight line, vignette.png "
+      "brightness: how the camera responds is not known; pcalib.txt is a straight line, "
+      "vignette.png "
       "is white");
 }
 

@@ -15,7 +15,9 @@ inline namespace v1 {
 namespace exporting {
 namespace {
 
-std::string nameOf(const CameraSensor& camera) { return "image of camera '" + camera.name + "'"; }
+std::string nameOf(const CameraSensor& camera) {
+  return "image of camera '" + camera.name + "'";
+}
 
 [[noreturn]] void fail(const CameraSensor& camera, const std::string& problem) {
   throw ArgumentError(nameOf(camera), problem);
@@ -179,7 +181,9 @@ Bytes depthPng(const CameraImage& image, const CameraSensor& camera, double unit
   return png(to);
 }
 
-Bytes whitePng(int width, int height) { return png(cv::Mat(height, width, CV_16U, 65535.0)); }
+Bytes whitePng(int width, int height) {
+  return png(cv::Mat(height, width, CV_16U, 65535.0));
+}
 
 }  // namespace exporting
 }  // namespace v1

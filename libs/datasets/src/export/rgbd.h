@@ -26,8 +26,8 @@ inline void checkRegistered(const Source& source) {
   const CameraSensor* const depth = source.depth();
   if (depth == nullptr) return;
   const CameraSensor& camera = source.camera(0);
-  const bool is_same_model = !depth->camera.isValid() || !camera.camera.isValid() ||
-                             depth->camera == camera.camera;
+  const bool is_same_model =
+      !depth->camera.isValid() || !camera.camera.isValid() || depth->camera == camera.camera;
   if (is_same_model && depth->T_body_camera.isApprox(camera.T_body_camera, 1e-9)) return;
   throw ArgumentError("camera '" + depth->name + "'",
                       "measures depth from elsewhere, or with another model, than camera '" +

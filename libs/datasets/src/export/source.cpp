@@ -13,7 +13,9 @@ namespace {
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-std::string quoted(const CameraSensor& camera) { return "camera '" + camera.name + "'"; }
+std::string quoted(const CameraSensor& camera) {
+  return "camera '" + camera.name + "'";
+}
 
 void checkFileName(const std::string& name) {
   const bool is_plain = std::all_of(name.begin(), name.end(), [](char c) {

@@ -89,6 +89,11 @@ class Source {
   std::size_t depth_;
 };
 
+/// Nanoseconds from one stamp to a later one; a double holds them only after this.
+inline std::uint64_t nanosecondsBetween(std::int64_t from, std::int64_t to) noexcept {
+  return static_cast<std::uint64_t>(to) - static_cast<std::uint64_t>(from);
+}
+
 bool isFinite(const SE3d& pose) noexcept;
 bool isFinite(const Vec3d& v) noexcept;
 

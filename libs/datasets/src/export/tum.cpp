@@ -30,7 +30,8 @@ class Tum : public Layout {
       source.notes.remark("there is no depth, and so neither depth/ nor depth.txt");
     }
     if (source.rig().has_imu) {
-      source.notes.leftOut("angular velocities and the place of the IMU: tum has acceleration only");
+      source.notes.leftOut(
+          "angular velocities and the place of the IMU: tum has acceleration only");
     }
   }
 
@@ -125,7 +126,9 @@ class Tum : public Layout {
 
 }  // namespace
 
-std::unique_ptr<Layout> makeTum(Source& source) { return std::make_unique<Tum>(source); }
+std::unique_ptr<Layout> makeTum(Source& source) {
+  return std::make_unique<Tum>(source);
+}
 
 }  // namespace exporting
 }  // namespace v1

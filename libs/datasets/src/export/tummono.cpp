@@ -40,7 +40,8 @@ class Tummono : public Layout {
 
   void prepare(const Frame& frame) override {
     const CameraImage* const image = source.image(frame, 0);
-    if (image == nullptr) throw Error("there is no image of camera '" + source.camera(0).name + "'");
+    if (image == nullptr)
+      throw Error("there is no image of camera '" + source.camera(0).name + "'");
     image_ = greyPng(*image, source.camera(0), source.notes);
     exposure_ = exposureText(image->exposure, source.notes);
     stamp_ = frame.stamp;
@@ -74,7 +75,9 @@ class Tummono : public Layout {
 
 }  // namespace
 
-std::unique_ptr<Layout> makeTummono(Source& source) { return std::make_unique<Tummono>(source); }
+std::unique_ptr<Layout> makeTummono(Source& source) {
+  return std::make_unique<Tummono>(source);
+}
 
 }  // namespace exporting
 }  // namespace v1

@@ -50,7 +50,8 @@ class ImuAtImages {
 
  private:
   ImuSample between(const ImuSample& next, std::int64_t stamp) const {
-    const double part = double(stamp - last_.stamp) / double(next.stamp - last_.stamp);
+    const double part = double(nanosecondsBetween(last_.stamp, stamp)) /
+                        double(nanosecondsBetween(last_.stamp, next.stamp));
     return {stamp, last_.gyro + part * (next.gyro - last_.gyro),
             last_.accel + part * (next.accel - last_.accel)};
   }
@@ -160,11 +161,10 @@ class Tumvi : public Layout {
       text += cameraName(i) + ":\n  T_cam_imu:\n" +
               matrixYaml(sensor.T_body_camera.inverse() * T_body_imu_);
       if (i > 0) {
-        text += "  T_cn_cnm1:\n" + matrixYaml(sensor.T_body_camera.inverse() *
-                                              source.camera(i - 1).T_body_camera);
+        text += "  T_cn_cnm1:\n" +
+                matrixYaml(sensor.T_body_camera.inverse() * source.camera(i - 1).T_body_camera);
       }
-      text += "  camera_model: pinhole\n  distortion_coeffs: [" +
-              joined(model.coefficients, ", ") +
+      text += "  camera_model: pinhole\n  distortion_coeffs: [" + joined(model.coefficients, ", ") +
               "]\n  distortion_model: equidistant\n  intrinsics: [" +
               joined(model.intrinsics, ", ") + "]\n  resolution: [" +
               std::to_string(sensor.camera.width()) + ", " +
@@ -214,7 +214,9 @@ class Tumvi : public Layout {
 
 }  // namespace
 
-std::unique_ptr<Layout> makeTumvi(Source& source) { return std::make_unique<Tumvi>(source); }
+std::unique_ptr<Layout> makeTumvi(Source& source) {
+  return std::make_unique<Tumvi>(source);
+}
 
 }  // namespace exporting
 }  // namespace v1

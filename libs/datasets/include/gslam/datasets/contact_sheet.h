@@ -22,11 +22,12 @@ struct ContactSheetOptions {
 };
 
 /// Draws a grid of frames. Each has the images of all its cameras side by side, above them its id
-/// and stamp, below the names of the cameras. Depth and disparity are in false colours, from near in
-/// red to far in blue, with one scale for the whole sheet, which the name says; black is no depth.
-/// A frame that cannot be read has its place, and says so.
+/// and stamp, below the names of the cameras. Depth and disparity are in false colours, from near
+/// in red to far in blue, with one scale for the whole sheet, which the name says; black is no
+/// depth. A frame that cannot be read has its place, and says so.
 ///
-/// @param dataset  is moved by seek(); of a device or one of unknown length the next frames are taken
+/// @param dataset  is moved by seek(); of a device or one of unknown length the next frames are
+/// taken
 /// @return red, green, blue
 /// @throws ArgumentError when an option is out of range
 /// @throws Error when there is no frame, or none can be read

@@ -56,12 +56,13 @@ struct ExportReport {
 ///
 /// | format | images | other sensors | ground truth | camera models |
 /// | --- | --- | --- | --- | --- |
-/// | tum | one camera as 8-bit colour, depth | acceleration | of that camera | none, pinhole, radtan with up to 5 coefficients |
-/// | icl | the same | - | of that camera, mirrored as there | none, pinhole |
-/// | euroc | all cameras as 8-bit grey | IMU | of the body | pinhole, radtan with 4, kannala_brandt |
-/// | kitti | one or two cameras, rectified, 8-bit grey | - | of the left camera | pinhole |
-/// | tummono | one camera as 8-bit grey, exposures | - | of that camera | pinhole, fov, radtan with 4, kannala_brandt |
-/// | tumvi | all cameras as 16-bit grey, exposures | IMU | of the IMU | kannala_brandt |
+/// | tum | one camera as 8-bit colour, depth | acceleration | of that camera | none, pinhole,
+/// radtan with up to 5 coefficients | | icl | the same | - | of that camera, mirrored as there |
+/// none, pinhole | | euroc | all cameras as 8-bit grey | IMU | of the body | pinhole, radtan with
+/// 4, kannala_brandt | | kitti | one or two cameras, rectified, 8-bit grey | - | of the left camera
+/// | pinhole | | tummono | one camera as 8-bit grey, exposures | - | of that camera | pinhole, fov,
+/// radtan with 4, kannala_brandt | | tumvi | all cameras as 16-bit grey, exposures | IMU | of the
+/// IMU | kannala_brandt |
 ///
 /// Pixels are lossless PNG. Colour becomes grey, grey colour, u16 grey its upper 8 bits where the
 /// layout wants it. A colour image of 16 bits cannot be written. Stamps are exact to the nanosecond
@@ -69,8 +70,9 @@ struct ExportReport {
 /// the frame of the layout.
 ///
 /// What a layout cannot do without and the dataset lacks, or the other way round a camera model, is
-/// an error before anything is written. What of other sensors has no place is left out and reported,
-/// and so are frames that cannot be read or written and frames not later than the one before.
+/// an error before anything is written. What of other sensors has no place is left out and
+/// reported, and so are frames that cannot be read or written and frames not later than the one
+/// before.
 ///
 /// When it is stopped, or fails, what was written before is a whole dataset of fewer frames.
 ///
