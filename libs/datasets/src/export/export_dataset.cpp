@@ -50,9 +50,20 @@ class Exporter {
            const ExportOptions& options)
       : dataset_(dataset), source_(source), layout_(layout), folder_(folder), options_(options) {}
 
+  // When it fails, what is left are whole frames.
   void run(ExportReport& report) {
+    try {
+      runToTheEnd(report);
+    } catch (...) {
+      folder_.abandon();
+      throw;
+    }
+  }
+
+ private:
+  void runToTheEnd(ExportReport& report) {
     layout_.begin(folder_);
-    folder_.flush();
+    folder_.keep();
     for (std::size_t done = 0; done < options_.count;) {
       if (options_.stop != nullptr && options_.stop->load()) {
         report.is_stopped = true;
@@ -62,17 +73,16 @@ class Exporter {
       if (read(frame) && frame == nullptr) break;
       ++done;
       if (frame != nullptr && write(*frame)) ++report.frames;
-      folder_.flush();
+      folder_.keep();
       if (options_.progress) options_.progress(done, total());
     }
     layout_.finish();
-    folder_.flush();
+    folder_.keep();
     if (report.frames == 0 && !first_failure_.empty()) {
       throw Error("no frame could be written: " + first_failure_);
     }
   }
 
- private:
   std::size_t total() const {
     const std::size_t count = source_.info().frame_count;
     return count < options_.count ? count : options_.count;

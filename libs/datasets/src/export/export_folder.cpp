@@ -42,34 +42,32 @@ TextFile::TextFile(const std::string& path) : path_(path) {
 }
 
 TextFile::~TextFile() {
-  if (file_ == nullptr) return;
-  if (std::fclose(file_) == 0) return;
-  std::error_code ignored;
-  fs::resize_file(path_, whole_, ignored);
+  if (file_ != nullptr) std::fclose(file_);
 }
 
 void TextFile::line(const std::string& text) {
-  if (file_ == nullptr) throw FileError(path_, "could not be written before");
   errno = 0;
-  if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) fail(errno);
-  if (std::fputc('\n', file_) == EOF) fail(errno);
+  const bool is_written = std::fwrite(text.data(), 1, text.size(), file_) == text.size() &&
+                          std::fputc('\n', file_) != EOF;
+  if (!is_written) throw FileError(path_, "cannot be written", errno);
   size_ += text.size() + 1;
 }
 
 void TextFile::flush() {
-  if (file_ == nullptr || whole_ == size_) return;
   errno = 0;
-  if (std::fflush(file_) != 0) fail(errno);
-  whole_ = size_;
+  if (std::fflush(file_) != 0) throw FileError(path_, "cannot be written", errno);
 }
 
-void TextFile::fail(int reason) {
+void TextFile::abandon() noexcept {
+  if (file_ == nullptr) return;
   std::fclose(file_);  // may write the rest, which is then cut off
   file_ = nullptr;
   std::error_code ignored;
-  fs::resize_file(path_, whole_, ignored);
-  size_ = whole_;
-  throw FileError(path_, "cannot be written", reason);
+  if (kept_ == 0) {
+    fs::remove(path_, ignored);
+  } else {
+    fs::resize_file(path_, kept_, ignored);
+  }
 }
 
 ExportFolder::ExportFolder(const std::string& path) : path_(path) {
@@ -85,13 +83,25 @@ ExportFolder::ExportFolder(const std::string& path) : path_(path) {
 }
 
 void ExportFolder::write(const std::string& name, const std::string& text) {
-  writeWholeFile(prepare(name), text.data(), text.size());
-  sizes_[name] = text.size();
+  writeBytes(name, text.data(), text.size());
 }
 
 void ExportFolder::write(const std::string& name, const Bytes& bytes) {
-  writeWholeFile(prepare(name), bytes.data(), bytes.size());
-  sizes_[name] = bytes.size();
+  writeBytes(name, bytes.data(), bytes.size());
+}
+
+void ExportFolder::writeBytes(const std::string& name, const void* data, std::size_t size) {
+  const std::string path = prepare(name);
+  if (sizes_.count(name) == 0) {
+    writeWholeFile(path, data, size);
+    not_kept_.push_back(name);
+  } else {  // the old one stays until the new one is whole
+    writeWholeFile(path + ".tmp", data, size);
+    std::error_code error;
+    fs::rename(path + ".tmp", path, error);
+    if (error) throw FileError(path, "cannot be replaced: " + error.message());
+  }
+  sizes_[name] = size;
 }
 
 TextFile& ExportFolder::openText(const std::string& name) {
@@ -117,8 +127,16 @@ void ExportFolder::remove(const std::string& name) {
   fs::remove(path_ + "/" + name, ignored);
 }
 
-void ExportFolder::flush() {
+void ExportFolder::keep() {
   for (const auto& text : texts_) text.second->flush();
+  for (const auto& text : texts_) text.second->keep();
+  not_kept_.clear();
+}
+
+void ExportFolder::abandon() noexcept {
+  for (const auto& text : texts_) text.second->abandon();
+  std::error_code ignored;
+  for (const std::string& name : not_kept_) fs::remove(path_ + "/" + name, ignored);
 }
 
 std::uint64_t ExportFolder::byteCount() const noexcept {

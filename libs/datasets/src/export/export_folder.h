@@ -20,8 +20,7 @@ using Bytes = std::vector<unsigned char>;
 /// @throws FileError
 void writeWholeFile(const std::string& path, const void* data, std::size_t size);
 
-/// A text file that grows line by line. After flush() what it holds is on disk; when a write fails,
-/// it is cut back to that.
+/// A text file that grows line by line.
 class TextFile {
  public:
   explicit TextFile(const std::string& path);
@@ -32,15 +31,17 @@ class TextFile {
   /// Adds the text and an end of line.
   void line(const std::string& text);
   void flush();
+  /// Keeps what was written until now, come what may.
+  void keep() noexcept { kept_ = size_; }
+  /// Cuts it back to what is kept, and ends it; without anything it goes.
+  void abandon() noexcept;
   std::uint64_t size() const noexcept { return size_; }
 
  private:
-  [[noreturn]] void fail(int reason);
-
   std::string path_;
   std::FILE* file_;
-  std::uint64_t size_ = 0;   // written, on disk or not
-  std::uint64_t whole_ = 0;  // on disk
+  std::uint64_t size_ = 0;  // written, on disk or not
+  std::uint64_t kept_ = 0;
 };
 
 class ExportFolder {
@@ -60,19 +61,23 @@ class ExportFolder {
   void remove(const std::string& name);
   /// @}
 
-  /// Brings all text to disk.
-  void flush();
+  /// Brings all text to disk, and keeps all that was written until now.
+  void keep();
+  /// Takes back what was written after keep(), as far as it was not there before.
+  void abandon() noexcept;
 
   std::size_t fileCount() const noexcept { return sizes_.size() + texts_.size(); }
   std::uint64_t byteCount() const noexcept;
 
  private:
   std::string prepare(const std::string& name);
+  void writeBytes(const std::string& name, const void* data, std::size_t size);
 
   std::string path_;
   std::string made_;                            // the last folder that was made
   std::map<std::string, std::uint64_t> sizes_;  // of files written at once
   std::map<std::string, std::unique_ptr<TextFile>> texts_;
+  std::vector<std::string> not_kept_;  // of sizes_
 };
 
 }  // namespace exporting
