@@ -68,7 +68,7 @@ std::vector<Cell> readCells(Dataset& dataset, std::size_t most) {
 // The pixels in a type that OpenCV has operations for: of half floats it has hardly any, and with
 // some it calls what is not there.
 cv::Mat pixelsOf(const CameraImage& image) {
-  const cv::Mat mat = toOpenCv(image.image);
+  cv::Mat mat = toOpenCv(image.image);
   if (image.image.type() != PixelType::f16) return mat;
   const cv::Mat halves(mat.rows, mat.cols, CV_MAKETYPE(CV_16S, mat.channels()), mat.data, mat.step);
   cv::Mat floats;
@@ -162,7 +162,7 @@ cv::Mat narrowed(const cv::Mat& mat) {
 }
 
 cv::Mat paintPhotograph(const CameraImage& image) {
-  const cv::Mat pixels = narrowed(pixelsOf(image));
+  cv::Mat pixels = narrowed(pixelsOf(image));
   cv::Mat bgr;
   switch (pixels.channels()) {
     case 1:

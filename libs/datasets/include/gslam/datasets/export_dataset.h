@@ -54,15 +54,17 @@ struct ExportReport {
 
 /// Writes the frames that next() still gives, in the layout of a public dataset.
 ///
-/// | format | images | other sensors | ground truth | camera models |
-/// | --- | --- | --- | --- | --- |
-/// | tum | one camera as 8-bit colour, depth | acceleration | of that camera | none, pinhole,
-/// radtan with up to 5 coefficients | | icl | the same | - | of that camera, mirrored as there |
-/// none, pinhole | | euroc | all cameras as 8-bit grey | IMU | of the body | pinhole, radtan with
-/// 4, kannala_brandt | | kitti | one or two cameras, rectified, 8-bit grey | - | of the left camera
-/// | pinhole | | tummono | one camera as 8-bit grey, exposures | - | of that camera | pinhole, fov,
-/// radtan with 4, kannala_brandt | | tumvi | all cameras as 16-bit grey, exposures | IMU | of the
-/// IMU | kannala_brandt |
+/// * tum: one camera as 8-bit colour, its depth, acceleration. Poses of that camera. Models: none,
+///   pinhole, radtan with up to 5 coefficients.
+/// * euroc: all cameras as 8-bit grey, IMU. Poses of the body. Models: pinhole, radtan with 4
+///   coefficients, kannala_brandt.
+/// * kitti: one or two rectified cameras as 8-bit grey. Poses of the left one, relative to its
+///   first. Model: pinhole.
+/// * icl: one camera as 8-bit colour, its depth. Poses of that camera, mirrored as there. Models:
+///   none, pinhole.
+/// * tummono: one camera as 8-bit grey, exposures. Poses of that camera. Models: pinhole, fov,
+///   radtan with 4 coefficients, kannala_brandt.
+/// * tumvi: all cameras as 16-bit grey, exposures, IMU. Poses of the IMU. Model: kannala_brandt.
 ///
 /// Pixels are lossless PNG. Colour becomes grey, grey colour, u16 grey its upper 8 bits where the
 /// layout wants it. A colour image of 16 bits cannot be written. Stamps are exact to the nanosecond
