@@ -2,25 +2,31 @@
 #define GSLAM_APPS_PROGRESS_H
 
 #include <gslam/core/player.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <cstdint>
 
 namespace app {
 
 /// A line on stderr that says how far the player is; nothing where stderr is no terminal.
 class Progress {
  public:
-  explicit Progress(const gslam::Messenger& messenger);
+  Progress() = default;
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   ~Progress();
 
- private:
-  void show(const gslam::RunStatus& status);
+  /// Shows what a player plays, for as long as both live.
+  void follow(const gslam::Messenger& messenger);
+  /// Shows frames that are done, of all; 0: of how many is not known.
+  void show(std::uint64_t done, std::uint64_t total);
 
+ private:
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin_ = Clock::now();
   Clock::time_point next_ = begin_;
+  const bool is_terminal_ = isatty(STDERR_FILENO) != 0;
   bool is_shown_ = false;
   gslam::Subscriber subscriber_;
 };

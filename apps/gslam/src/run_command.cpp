@@ -28,13 +28,12 @@ void makeFolder(const std::string& path) {
 }
 
 // What ran, so that it can be run again.
-gslam::Svar protocol(const Options& options, const Session& session,
-                     const gslam::RunResult& result) {
+gslam::Svar protocol(const Options& options, Session& session, const gslam::RunResult& result) {
   const gslam::DatasetInfo& info = session.dataset().info();
   return gslam::Svar::object(
       {{"gslam", GSLAM_CORE_VERSION},
        {"dataset",
-        gslam::Svar::object({{"given", options.get<std::string>("dataset")},
+        gslam::Svar::object({{"given", session.given()},
                              {"name", info.name},
                              {"format", info.format},
                              {"parameters", options.get<gslam::Svar>("dataset-param")}})},
@@ -59,14 +58,13 @@ void keep(const std::string& folder, const gslam::Svar& protocol, const gslam::R
 
 int runCommand(const std::vector<std::string>& arguments) {
   Options options(
-      "gslam run --dataset D --slam S --out DIR [options]",
+      "gslam run DATASET --slam S --out DIR [options]",
       "Runs a SLAM system on a dataset. Writes DIR/trajectory.txt (TUM format, "
       "T_world_body), DIR/run.json (what ran and how it ended) and, where there is one, "
       "DIR/map.gmap. A run that fails or is stopped keeps what it has.");
   Session::declare(options);
   options.arg<std::string>("out", "folder for the results").shortName("o").group("What");
   if (!options.read(arguments)) return kSuccess;
-  options.noWords();
   if (options.get<std::string>("slam").empty()) {
     throw gslam::ConfigError("--slam", "must be given: name or file of the SLAM system");
   }

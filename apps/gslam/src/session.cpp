@@ -16,6 +16,14 @@
 namespace app {
 namespace {
 
+// --dataset D, or D alone.
+std::string datasetOf(const Options& options) {
+  const auto named = options.get<std::string>("dataset");
+  if (named.empty()) return options.oneWord("a dataset");
+  options.noWords();
+  return named;
+}
+
 std::vector<std::string> paces() {
   return {"every_frame", "real_time"};
 }
@@ -50,7 +58,9 @@ std::string seconds(double value) {
 }  // namespace
 
 void Session::declare(Options& options) {
-  options.arg<std::string>("dataset", "file, folder, KIND:PATH or KIND://...; see `gslam datasets`")
+  options
+      .arg<std::string>("dataset", "",
+                        "file, folder, KIND:PATH or KIND://...; see `gslam datasets`")
       .shortName("d")
       .group("What");
   options.arg<std::string>("slam", "", "name or file of the SLAM system")
@@ -77,9 +87,8 @@ void Session::declare(Options& options) {
 }
 
 Session::Session(const Options& options)
-    : play_(playOptions(options)), plugins_(new gslam::Plugins) {
-  dataset_ = gslam::openDataset(*plugins_, options.get<std::string>("dataset"),
-                                options.get<gslam::Svar>("dataset-param"));
+    : play_(playOptions(options)), given_(datasetOf(options)), plugins_(new gslam::Plugins) {
+  dataset_ = gslam::openDataset(*plugins_, given_, options.get<gslam::Svar>("dataset-param"));
   if (!options.get<std::string>("slam").empty()) makeSlam(*plugins_, options);
 }
 
@@ -106,7 +115,8 @@ void Session::makeSlam(gslam::Plugins& plugins, const Options& options) {
 
 gslam::RunResult Session::play() {
   const gslam::Messenger messenger;
-  const Progress progress(messenger);
+  Progress progress;
+  progress.follow(messenger);
   gslam::Player player(*dataset_, messenger);
   const OnInterrupt interrupt([&player] { player.stop(); });
   if (slam_ == nullptr) {

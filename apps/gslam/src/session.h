@@ -23,9 +23,12 @@ class Session {
 
   /// Whether there is a SLAM system.
   bool hasSlam() const { return slam_ != nullptr; }
-  const gslam::Dataset& dataset() const { return *dataset_; }    ///< as opened
+  gslam::Dataset& dataset() { return *dataset_; }                ///< as opened
+  const std::string& given() const { return given_; }            ///< what the user called it
   const std::string& slamName() const { return slam_name_; }     ///< as its plugin has it
   const gslam::Svar& parameters() const { return parameters_; }  ///< of the system, all
+
+  const gslam::PlayOptions& options() const { return play_; }  ///< which frames, how fast
 
   /// Plays the dataset, with a line of progress, until the end or Ctrl-C.
   gslam::RunResult play();
@@ -34,6 +37,7 @@ class Session {
   void makeSlam(gslam::Plugins& plugins, const Options& options);
 
   gslam::PlayOptions play_;
+  std::string given_;
   std::unique_ptr<gslam::Plugins> plugins_;
   std::unique_ptr<gslam::Dataset> dataset_;
   std::string slam_name_;

@@ -62,7 +62,7 @@ class WrongUse(Folder):
         self.check(gslam("play", "--datset", "carousel"), 2, err="did you mean")
 
     def test_what_must_be_given(self):
-        self.check(gslam("play"), 2, err="dataset")
+        self.check(gslam("play"), 2, err="a dataset: must be given")
         self.check(gslam("run", "--dataset", "carousel", "--out", self.folder), 2, err="--slam")
         self.check(gslam("info"), 2, err="DATASET")
         self.check(gslam("map"), 2, err="info FILE")
@@ -195,6 +195,30 @@ class Run(Folder):
         result = self.check(gslam("play", "-d", "carousel"))
         self.assertEqual(result.stderr, "")
         self.assertNotIn("\r", result.stdout)
+
+
+class Save(Folder):
+    world = "synthetic://corridor?frames=5"
+
+    def test_as_a_public_dataset(self):
+        for layout in ["tum", "euroc", "kitti"]:
+            out = self.folder / layout
+            result = gslam("play", self.world, "--save", out, "--as", layout)
+            if result.returncode != 0:  # a world of one kind is not for all layouts
+                self.assertIn(layout, result.stderr)
+                self.assertFalse(out.exists())
+                continue
+            self.assertIn("saved: 5 frames", result.stdout)
+            self.assertGreaterEqual(len(list(out.rglob("*.png"))), 5)
+            self.check(gslam("play", self.world, "--save", out, "--as", layout), 1, err=str(out))
+
+    def test_contact_sheet(self):
+        sheet = self.folder / "sheet.png"
+        self.check(gslam("play", self.world, "--contact-sheet", sheet))
+        self.assertEqual(sheet.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+
+    def test_unknown_layout(self):
+        self.check(gslam("play", self.world, "--save", self.folder / "x", "--as", "tun"), 2, err="tum")
 
 
 class Interrupts(Folder):

@@ -54,14 +54,14 @@ struct SlamSetup {
   Messenger messenger;  ///< its own: for its topics, without those of the dataset
 };
 
-/// A SLAM system: one class to write, five functions.
+/// A SLAM system: one class to write, four functions.
 ///
 ///     class Mine : public gslam::Slam {
 ///       void configure(const SlamSetup& setup) override {
 ///         pose_ = setup.messenger.advertise<TrackedPose>("pose");
 ///       }
 ///       void feed(const std::shared_ptr<const Frame>& frame) override {
-///         pose_.publish(TrackedPose{frame->id, frame->stamp, track(*frame), state_});
+///         pose_.publish({frame->id, frame->stamp, track(*frame), state_});
 ///       }
 ///       ...
 ///
