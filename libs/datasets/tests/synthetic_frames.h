@@ -41,7 +41,9 @@ inline std::shared_ptr<const Frame> frameAt(Dataset& dataset, std::size_t index)
 }
 
 /// Camera axes (right, down, forward) for a body whose x is forward.
-inline SO3d forward() { return SO3d::fromMatrix({{0, 0, 1, -1, 0, 0, 0, -1, 0}}); }
+inline SO3d forward() {
+  return SO3d::fromMatrix({{0, 0, 1, -1, 0, 0, 0, -1, 0}});
+}
 
 inline CameraSensor sensor(const std::string& name, ImageKind kind, const Camera& camera,
                            const SE3d& T_body_camera) {
@@ -97,8 +99,10 @@ class DepthView {
     const double bend = 2e-3 * inverse[1][1];
     for (int k = 0; k < 4; ++k) {
       for (int i = 1; i < 3; ++i) {
-        if (std::fabs(inverse[k][i - 1] - 2 * inverse[k][i] + inverse[k][i + 1]) > bend) return false;
-        if (std::fabs(inverse[i - 1][k] - 2 * inverse[i][k] + inverse[i + 1][k]) > bend) return false;
+        if (std::fabs(inverse[k][i - 1] - 2 * inverse[k][i] + inverse[k][i + 1]) > bend)
+          return false;
+        if (std::fabs(inverse[i - 1][k] - 2 * inverse[i][k] + inverse[i + 1][k]) > bend)
+          return false;
       }
     }
     const double fx = pixel[0] - u, fy = pixel[1] - v;
@@ -114,10 +118,10 @@ class DepthView {
 
 /// What came of going from one view to another and back.
 struct ThereAndBack {
-  int seen = 0;         ///< pixels of the first that are on smooth surfaces in the second
-  int hidden = 0;       ///< by something nearer
-  int wrong = 0;        ///< not hidden, but not there
-  double worst = 0;     ///< pixels, of those that are neither
+  int seen = 0;      ///< pixels of the first that are on smooth surfaces in the second
+  int hidden = 0;    ///< by something nearer
+  int wrong = 0;     ///< not hidden, but not there
+  double worst = 0;  ///< pixels, of those that are neither
 };
 
 inline ThereAndBack thereAndBack(const DepthView& a, const DepthView& b, double tolerance) {

@@ -12,7 +12,7 @@ SyntheticOptions fast(const std::string& world) {
   options.sensors = "mono";
   options.width = options.height = 2;
   options.rate = 1000;
-  options.imu_rate = 1000;
+  options.imu_rate = 10000;
   options.frames = 8001;
   options.speed = world == "room" ? 1.2 : 12;
   options.exposure = 0;
@@ -28,7 +28,7 @@ struct Integrator {
     const Vec3d gravity = {{0, 0, -9.81}};
     const double two = 2 * h;
     const SO3d start = rotation;
-    const SO3d middle = start * SO3d::exp(h / 24 * (5 * s[0].gyro + 8 * s[1].gyro - s[2].gyro));
+    const SO3d middle = start * SO3d::exp(h / 12 * (5 * s[0].gyro + 8 * s[1].gyro - s[2].gyro));
     rotation = start * SO3d::exp(two / 6 * (s[0].gyro + 4 * s[1].gyro + s[2].gyro) +
                                  two * two / 12 * s[0].gyro.cross(s[2].gyro));
     const Vec3d a0 = start * s[0].accel + gravity, a1 = middle * s[1].accel + gravity;
@@ -46,17 +46,19 @@ TEST(SyntheticMotion, TheIntegratedInertialUnitIsTheTrajectory) {
     while (const auto frame = dataset->next()) {
       samples.insert(samples.end(), frame->imu.begin(), frame->imu.end());
     }
-    ASSERT_EQ(samples.size(), truth.size());
-    const double h = 1e-3;
+    ASSERT_EQ(samples.size(), 10 * (truth.size() - 1) + 1);
+    const double h = 1e-3, step = 1e-4;  // of the trajectory, and of the samples
     const auto place = [&](std::size_t i) { return truth[i].pose.translation(); };
     Integrator state = {truth[2].pose.rotation(),
                         (8 * (place(3) - place(1)) - (place(4) - place(0))) / (12 * h), place(2)};
-    for (std::size_t i = 2; i + 2 < samples.size(); i += 2) {
-      ASSERT_EQ(samples[i].stamp, truth[i].stamp);
-      state.step(&samples[i], h);
-      if (i % 1000 != 0) continue;
-      EXPECT_LT((state.place - place(i + 2)).norm(), 1e-4) << world << " " << i;
-      EXPECT_TRUE(state.rotation.isApprox(truth[i + 2].pose.rotation(), 1e-4)) << world;
+    for (std::size_t i = 20; i + 2 < samples.size(); i += 2) {
+      if (i % 1000 == 0) {
+        const std::size_t k = i / 10;
+        ASSERT_EQ(samples[i].stamp, truth[k].stamp);
+        EXPECT_LT((state.place - place(k)).norm(), 1e-4) << world << " " << k;
+        EXPECT_TRUE(state.rotation.isApprox(truth[k].pose.rotation(), 1e-4)) << world;
+      }
+      state.step(&samples[i], step);
     }
   }
 }
@@ -101,7 +103,8 @@ TEST(SyntheticMotion, SatellitesFollowTheTrajectory) {
   while (const auto frame = dataset->next()) {
     ASSERT_EQ(frame->gnss.size(), 1U);
     const gslam::Geodetic& at = frame->gnss[0].position;
-    const Vec3d way = truth[std::size_t(frame->id)].pose.translation() - truth[0].pose.translation();
+    const Vec3d way =
+        truth[std::size_t(frame->id)].pose.translation() - truth[0].pose.translation();
     // Radii of curvature of WGS 84 at 47.4 degrees: 6370.2 and 6389.7 km.
     EXPECT_NEAR((at.latitude - origin.latitude) * 6370.7e3, way[1], 0.05);
     EXPECT_NEAR((at.longitude - origin.longitude) * 6390.2e3 * std::cos(0.82729), way[0], 0.05);
@@ -135,8 +138,8 @@ TEST(SyntheticMotion, BlurIsTheMeanOverTheExposure) {
     of_blurred += std::fabs(blurred->images[0].image.bytes()[k] - mean[k]);
     of_sharp += std::fabs(sharp->images[0].image.bytes()[k] - mean[k]);
   }
-  EXPECT_LT(of_blurred, 0.35 * of_sharp);
-  EXPECT_LT(of_blurred / double(mean.size()), 2);
+  EXPECT_LT(of_blurred, 0.5 * of_sharp);
+  EXPECT_LT(of_blurred / double(mean.size()), 1.5);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ TEST(SyntheticNoise, OfImagesAndDepthIsAsStated) {
   }
   for (const std::vector<double>& differences : of_channel) {
     const Moments m = momentsOf(differences);
-    EXPECT_NEAR(m.mean, 0, 0.02);
+    EXPECT_NEAR(m.mean, 0, 0.08);  // what is painted in one grey is rounded to one side
     EXPECT_NEAR(m.deviation, std::sqrt(4 + 2 / 12.0), 0.03);  // both were rounded
   }
   EXPECT_NEAR(momentsOf(products).mean, 0, 0.05);  // neighbours are independent
@@ -90,9 +90,11 @@ TEST(SyntheticNoise, OfTheInertialUnitIsAsStated) {
       for (std::size_t j = 0; j < second; ++j) {
         const std::size_t late = i + 19 * second + j, early = i + j;
         gyro_change += (with[late].gyro[k] - without[late].gyro[k] - with[early].gyro[k] +
-                        without[early].gyro[k]) / double(second);
+                        without[early].gyro[k]) /
+                       double(second);
         accel_change += (with[late].accel[k] - without[late].accel[k] - with[early].accel[k] +
-                         without[early].accel[k]) / double(second);
+                         without[early].accel[k]) /
+                        double(second);
       }
       gyro_walk.push_back(gyro_change);
       accel_walk.push_back(accel_change);
@@ -101,8 +103,8 @@ TEST(SyntheticNoise, OfTheInertialUnitIsAsStated) {
   EXPECT_NEAR(momentsOf(gyro).deviation, 1.7e-4 * std::sqrt(200), 3e-5);
   EXPECT_NEAR(momentsOf(accel).deviation, 2e-3 * std::sqrt(200), 3e-4);
   const auto square = [](double x) { return x * x; };
-  EXPECT_NEAR(momentsOf(gyro_walk).deviation,
-              std::sqrt(19 * square(2e-5) + 2 * square(1.7e-4)), 6e-5);
+  EXPECT_NEAR(momentsOf(gyro_walk).deviation, std::sqrt(19 * square(2e-5) + 2 * square(1.7e-4)),
+              6e-5);
   EXPECT_NEAR(momentsOf(accel_walk).deviation, std::sqrt(19 * square(3e-3) + 2 * square(2e-3)),
               4e-3);
   const gslam::ImuCalibration& told = gslam::openSynthetic(options)->info().sensors.imu;

@@ -29,8 +29,11 @@ inline Cell cellOf(float x, float y, float width, float height) {
 class Brush {
  public:
   Brush(const NoiseField& coarse, const NoiseField& fine, std::uint64_t key)
-      : coarse_(coarse), fine_(fine), key_(static_cast<std::uint32_t>(key)),
-        x_(value(0, 0, 900)), y_(value(0, 0, 901)) {}
+      : coarse_(coarse),
+        fine_(fine),
+        key_(static_cast<std::uint32_t>(key)),
+        x_(value(0, 0, 900)),
+        y_(value(0, 0, 901)) {}
 
   /// 0 to 1, of a cell.
   float value(int i, int j, std::uint32_t purpose) const {
@@ -50,11 +53,13 @@ class Brush {
   float grain(float x, float y, float size) const {
     const float scale = 1 / (256 * size);
     return 0.6F * fine_.at(x * scale + x_, y * scale + y_) +
-           0.5F * fine_.at((0.79F * x + 0.53F * y) * scale * 0.61F, (0.79F * y - 0.53F * x) * scale * 0.61F);
+           0.5F * fine_.at((0.79F * x + 0.53F * y) * scale * 0.61F,
+                           (0.79F * y - 0.53F * x) * scale * 0.61F);
   }
 
   /// In most cells a disc, square, ring or cross: how much brighter it is, -1 to 1; else 0.
-  float blobs(float x, float y, float size, std::uint32_t purpose) const {
+  /// @param is_round  discs only
+  float blobs(float x, float y, float size, std::uint32_t purpose, bool is_round = false) const {
     const Cell cell = cellOf(x, y, size, size);
     const std::uint32_t random = bits(cell.i, cell.j, purpose);
     if ((random & 7U) == 0) return 0;
@@ -63,7 +68,7 @@ class Brush {
     const float dy = std::fabs(cell.y - reach - (1 - 2 * reach) * part(random, 15));
     const float far = std::sqrt(dx * dx + dy * dy);
     bool is_inside = far < reach;
-    const std::uint32_t kind = random >> 30;
+    const std::uint32_t kind = is_round ? 0 : random >> 30;
     if (kind == 1) is_inside = std::max(dx, dy) < 0.8F * reach;
     if (kind == 2) is_inside = is_inside && far > 0.55F * reach;
     if (kind == 3) is_inside = std::min(dx, dy) < 0.25F * reach && std::max(dx, dy) < reach;

@@ -143,8 +143,9 @@ class SyntheticDataset : public Dataset {
     const bool is_colour = sensor.kind == ImageKind::rgb || sensor.kind == ImageKind::bgr;
     for (Eye& eye : eyes_) {
       const CameraSensor& first = info_.sensors.cameras[eye.sensors[0]];
-      const bool mixes = sensor.kind == ImageKind::grey ? eye.has_colour
-                                                        : is_colour && eye.has_image && !eye.has_colour;
+      const bool mixes = sensor.kind == ImageKind::grey
+                             ? eye.has_colour
+                             : is_colour && eye.has_image && !eye.has_colour;
       const bool is_same_place = first.T_body_camera.isApprox(sensor.T_body_camera, 0);
       if (first.camera == sensor.camera && is_same_place && !mixes) return eye;
     }

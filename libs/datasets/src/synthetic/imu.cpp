@@ -42,8 +42,8 @@ std::int64_t Imu::timeOf(std::int64_t i) const {
 std::vector<ImuSample> Imu::samples(const Motion& motion, std::int64_t from, std::int64_t to,
                                     std::int64_t origin) const {
   std::vector<ImuSample> samples;
-  auto i = static_cast<std::int64_t>(double(std::max<std::int64_t>(from, 0)) * 1e-9 *
-                                     calibration_.rate);
+  auto i =
+      static_cast<std::int64_t>(double(std::max<std::int64_t>(from, 0)) * 1e-9 * calibration_.rate);
   i = std::max<std::int64_t>(i - 1, 0);
   for (; i < static_cast<std::int64_t>(biases_.size()) && timeOf(i) <= to; ++i) {
     if (timeOf(i) <= from) continue;

@@ -18,7 +18,9 @@ constexpr float kNearest = 0.05F;  // metres
 class DepthRow {
  public:
   DepthRow(const Picture& picture, const Rays& rays, const DepthSensor& sensor)
-      : picture_(picture), rays_(rays), sensor_(sensor),
+      : picture_(picture),
+        rays_(rays),
+        sensor_(sensor),
         farthest_(sensor.is_float ? 1e30F : static_cast<float>(65535 * sensor.unit)) {
     if (sensor.farthest > 0) farthest_ = std::min(farthest_, sensor.farthest);
   }

@@ -14,6 +14,7 @@ namespace synthetic {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr double kMostControls = 1e5;
 
 double pausedBefore(const std::vector<Pause>& pauses, double time) {
   double sum = 0;
@@ -50,7 +51,8 @@ Plan planOf(const Route& route, const MotionOptions& options) {
   plan.round = route.length / speed + paused;
   plan.count = std::max(12, static_cast<int>(std::ceil(route.length / route.control_step)));
   // Pauses need several controls each, and time goes on meanwhile.
-  plan.count = std::max(plan.count, static_cast<int>(std::ceil(plan.round / 0.45)));
+  const double timed = std::min(std::ceil(plan.round / 0.45), kMostControls);
+  plan.count = std::max(plan.count, static_cast<int>(timed));
   return plan;
 }
 
@@ -59,7 +61,7 @@ std::vector<Pause> widened(const std::vector<Pause>& pauses, const Plan& plan) {
   std::vector<Pause> wide;
   const double interval = plan.interval();
   for (const Pause& pause : pauses) {
-    wide.push_back({std::max(0.0, pause.begin - 1.05 * interval),
+    wide.push_back({std::max(0.0, pause.begin - 2.05 * interval),
                     std::min(plan.round, pause.end + 2.05 * interval)});
     if (wide.size() > 1 && wide[wide.size() - 2].end > wide.back().begin) {
       wide[wide.size() - 2].end = wide.back().end;
@@ -72,8 +74,7 @@ std::vector<Pause> widened(const std::vector<Pause>& pauses, const Plan& plan) {
 class Controls {
  public:
   Controls(const Route& route, const MotionOptions& options, const Plan& plan)
-      : route_(route), options_(options), plan_(plan),
-        wide_(widened(options.pauses, plan)) {}
+      : route_(route), options_(options), plan_(plan), wide_(widened(options.pauses, plan)) {}
 
   std::vector<SE3d> make() const {
     std::vector<SE3d> round;
@@ -93,8 +94,8 @@ class Controls {
     const Vec3d place = route_.place(part);
     const Vec3d ahead = route_.place(part + route_.look_ahead / route_.length) -
                         route_.place(part - 0.3 * route_.look_ahead / route_.length);
-    const double yaw = std::atan2(ahead[1], ahead[0]) +
-                       route_.swing * std::sin(2 * kPi * (3 * part + 0.25)) +
+    const double yaw = std::atan2(ahead[1], ahead[0]) + route_.look_left +
+                       route_.swing * std::sin(2 * kPi * (2 * part + 0.25)) +
                        turnInPauses(options_.pauses, time);
     // What stands still shakes by the same in place, but not in its direction.
     const int shaken = pauseOf(time) >= 0 ? -1 - pauseOf(time) : k;

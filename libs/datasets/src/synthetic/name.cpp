@@ -43,9 +43,9 @@ void readOption(const std::string& text, const Svar& defaults, Svar& options) {
   std::vector<std::string> names;
   for (const Svar::Member& member : defaults.members()) names.push_back(member.first);
   if (std::find(names.begin(), names.end(), name) == names.end()) {
-    throw ArgumentError("\"" + name + "\"",
-                        "is no option of synthetic worlds" +
-                            detail::suggestion(detail::nearestName(name, names)));
+    throw ArgumentError(
+        "\"" + name + "\"",
+        "is no option of synthetic worlds" + detail::suggestion(detail::nearestName(name, names)));
   }
   options.set(name, valueOf(name, defaults[name], text.substr(equal + 1)));
 }

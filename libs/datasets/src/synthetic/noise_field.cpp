@@ -13,7 +13,9 @@ float latticeValue(std::uint32_t key, int x, int y) {
   return static_cast<float>(mix32(key + place * 0x9E3779B9U) >> 8) / 8388608.0F - 1;
 }
 
-float smooth(float t) { return t * t * (3 - 2 * t); }
+float smooth(float t) {
+  return t * t * (3 - 2 * t);
+}
 
 }  // namespace
 
@@ -29,10 +31,10 @@ NoiseField::NoiseField(std::uint64_t key, int first, int last, float gain)
       const float fy = smooth(static_cast<float>(y % step) / static_cast<float>(step));
       for (int ix = 0; ix < count; ++ix) {
         const int jx = (ix + 1) % count;
-        const float left = latticeValue(octave_key, ix, iy) * (1 - fy) +
-                           latticeValue(octave_key, ix, jy) * fy;
-        const float right = latticeValue(octave_key, jx, iy) * (1 - fy) +
-                            latticeValue(octave_key, jx, jy) * fy;
+        const float left =
+            latticeValue(octave_key, ix, iy) * (1 - fy) + latticeValue(octave_key, ix, jy) * fy;
+        const float right =
+            latticeValue(octave_key, jx, iy) * (1 - fy) + latticeValue(octave_key, jx, jy) * fy;
         for (int i = 0; i < step; ++i) {
           const float fx = smooth(static_cast<float>(i) / static_cast<float>(step));
           cells_[static_cast<std::size_t>(y * kSize + ix * step + i)] +=

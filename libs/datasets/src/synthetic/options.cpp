@@ -103,7 +103,7 @@ void checkOptions(const SyntheticOptions& o) {
   checkName("world", o.world, names);
   checkRange("frames", o.frames, 1, 100000);
   checkRange("rate", o.rate, 0.1, 1000);
-  checkRange("speed", o.speed, 0, 1000);
+  if (o.speed != 0) checkRange("speed", o.speed, 0.01, 1000);
   checkRange("movers", o.movers, 0, 50);
   checkRange("imu_rate", o.imu_rate, 1, 10000);
   checkRange("gnss_rate", o.gnss_rate, 0.1, 100);
@@ -112,8 +112,8 @@ void checkOptions(const SyntheticOptions& o) {
   checkCameras(o);
   const double samples = o.frames / o.rate * o.imu_rate;
   if (o.imu && samples > kMostSamples) {
-    throw ArgumentError("imu_rate", "makes " + numberText(samples) +
-                                        " samples, expected at most 10 millions");
+    throw ArgumentError("imu_rate",
+                        "makes " + numberText(samples) + " samples, expected at most 10 millions");
   }
   checkRanges("pure_rotation", o.pure_rotation);
   checkRanges("low_texture", o.low_texture);

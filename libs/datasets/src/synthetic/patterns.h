@@ -22,9 +22,11 @@ struct Wallpaper {
       if (y > 0.84F) return 0.25F + 0.1F * brush.grain(x, y * 4, 0.01F);
       const Cell panel = cellOf(x, y, 0.31F, 2);
       const float gap = std::min(panel.x, 1 - panel.x) < 0.02F ? -0.25F : 0.0F;
-      return 0.45F + gap + 0.15F * brush.grain(6 * x, y, 0.02F) + 0.12F * brush.value(panel.i, 0, 3);
+      return 0.45F + gap + 0.15F * brush.grain(6 * x, y, 0.02F) +
+             0.12F * brush.value(panel.i, 0, 3);
     }
-    return ground + 0.24F * brush.blobs(x, y, 0.19F, 4) + 0.2F * brush.blobs(x + 3, y + 7, 0.11F, 5);
+    return ground + 0.24F * brush.blobs(x, y, 0.19F, 4) +
+           0.2F * brush.blobs(x + 3, y + 7, 0.11F, 5);
   }
 };
 
@@ -33,7 +35,8 @@ struct Plaster {
   float operator()(float x, float y) const {
     const float stain = brush.soft(x, y, 0.6F);
     return 0.66F + 0.16F * stain + 0.16F * brush.grain(x, y, 0.011F) +
-           0.3F * std::min(0.0F, brush.blobs(x, y, 0.16F, 6)) + (stain > 0.55F ? -0.2F : 0.0F);
+           0.3F * std::min(0.0F, brush.blobs(x, y, 0.16F, 6, true)) +
+           (stain > 0.55F ? -0.2F : 0.0F);
   }
 };
 
@@ -56,8 +59,9 @@ struct Planks {
     const Cell plank = cellOf(x + 1.3F * brush.value(row, 0, 1), y, 1.3F, 0.14F);
     if (borderDistance(plank, 1.3F, 0.14F) < 0.004F) return 0.08F;
     const float knot = std::min(0.0F, brush.blobs(x, y, 0.14F, 2));
-    return 0.38F + 0.34F * brush.value(plank.i, plank.j, 3) + 0.16F * brush.grain(x, 7 * y, 0.014F) +
-           0.10F * brush.grain(x, y, 0.009F) + 0.2F * (knot < -0.8F ? knot : 0.0F);
+    return 0.38F + 0.34F * brush.value(plank.i, plank.j, 3) +
+           0.16F * brush.grain(x, 7 * y, 0.014F) + 0.10F * brush.grain(x, y, 0.009F) +
+           0.2F * (knot < -0.8F ? knot : 0.0F);
   }
 };
 
@@ -90,7 +94,8 @@ struct Concrete {
     const Cell slab = cellOf(x, y, 1.2F, 1.2F);
     if (borderDistance(slab, 1.2F, 1.2F) < 0.008F) return 0.2F;
     return 0.5F + 0.1F * brush.value(slab.i, slab.j, 1) + 0.14F * brush.soft(x, y, 0.5F) +
-           0.22F * brush.grain(x, y, 0.010F) + 0.25F * std::min(0.0F, brush.blobs(x, y, 0.13F, 2));
+           0.22F * brush.grain(x, y, 0.010F) +
+           0.25F * std::min(0.0F, brush.blobs(x, y, 0.13F, 2, true));
   }
 };
 
@@ -172,7 +177,7 @@ struct Crate {
     if (label.x > 0.2F && label.x < 0.75F && label.y > 0.3F && label.y < 0.65F) {
       return brush.text(x, -y, 0.035F, 2) ? 0.08F : 0.92F;
     }
-    return wood + 0.3F * std::min(0.0F, brush.blobs(x, y, 0.12F, 3));
+    return wood + 0.3F * std::min(0.0F, brush.blobs(x, y, 0.12F, 3, true));
   }
 };
 
@@ -192,7 +197,7 @@ struct Metal {
     const float ring = band.y < 0.08F ? -0.3F : 0.0F;
     const float rust = brush.soft(x, y, 0.2F) > 0.35F ? -0.25F : 0.0F;
     return 0.62F + ring + rust + 0.15F * brush.grain(x, y, 0.010F) +
-           0.25F * brush.blobs(x, y, 0.13F, 1);
+           0.25F * brush.blobs(x, y, 0.13F, 1, true);
   }
 };
 
@@ -206,8 +211,8 @@ struct Bark {
 struct Leaves {
   Brush brush;
   float operator()(float x, float y) const {
-    return 0.45F + 0.3F * brush.blobs(x, y, 0.21F, 1) + 0.25F * brush.blobs(x + 5, y, 0.37F, 2) +
-           0.3F * brush.grain(x, y, 0.04F);
+    return 0.45F + 0.3F * brush.blobs(x, y, 0.21F, 1, true) +
+           0.25F * brush.blobs(x + 5, y, 0.37F, 2, true) + 0.3F * brush.grain(x, y, 0.04F);
   }
 };
 
@@ -230,8 +235,8 @@ struct Facade {
 
  private:
   float brickWall(float x, float y, float wall) const {
-    const Cell stone = cellOf(x + (static_cast<int>(std::floor(y / 0.2F)) % 2 == 0 ? 0.0F : 0.3F), y,
-                              0.6F, 0.2F);
+    const Cell stone =
+        cellOf(x + (static_cast<int>(std::floor(y / 0.2F)) % 2 == 0 ? 0.0F : 0.3F), y, 0.6F, 0.2F);
     if (borderDistance(stone, 0.6F, 0.2F) < 0.015F) return wall + 0.2F;
     return wall - 0.2F + 0.3F * brush.value(stone.i, stone.j, 3);
   }
@@ -261,7 +266,8 @@ struct Asphalt {
     const float tone = brush.bits(patch.i, patch.j, 1) % 4 == 0 ? -0.12F : 0.0F;
     const float crack = std::fabs(brush.soft(x, y, 2)) < 0.02F ? -0.2F : 0.0F;
     return 0.36F + tone + crack + 0.28F * worn + 0.1F * brush.soft(x, y, 4) +
-           0.25F * brush.blobs(x, y, 0.57F, 2) * (brush.bits(patch.i, patch.j, 3) % 3 == 0 ? 1.0F : 0.2F);
+           0.25F * brush.blobs(x, y, 0.57F, 2, true) *
+               (brush.bits(patch.i, patch.j, 3) % 3 == 0 ? 1.0F : 0.2F);
   }
 };
 
@@ -310,9 +316,9 @@ struct Land {
     const std::uint32_t kind = brush.bits(field.i, field.j, 1) % 4;
     const float tone = 0.3F + 0.35F * brush.value(field.i, field.j, 2);
     const float rough = tone + 0.22F * grain + 0.08F * brush.soft(x, y, 20);
-    if (kind == 0) return rough - 0.08F + 0.35F * brush.blobs(x, y, 2.9F, 3);
+    if (kind == 0) return rough - 0.08F + 0.35F * brush.blobs(x, y, 2.9F, 3, true);
     if (kind == 1) return rough + ((field.x * 30 - std::floor(field.x * 30)) < 0.5F ? 0.1F : -0.1F);
-    if (kind == 2) return rough + 0.2F * brush.blobs(x, y, 5.3F, 4);
+    if (kind == 2) return rough + 0.2F * brush.blobs(x, y, 5.3F, 4, true);
     return rough;
   }
 };

@@ -22,7 +22,9 @@ constexpr std::uint64_t kChannelStep = 0x68E31DA4B5297A4DU;
 class Photograph {
  public:
   Photograph(const Picture& picture, ImageKind kind, const Exposure& exposure)
-      : picture_(picture), exposure_(exposure), channels_(kind == ImageKind::grey ? 1 : 3),
+      : picture_(picture),
+        exposure_(exposure),
+        channels_(kind == ImageKind::grey ? 1 : 3),
         is_bgr_(kind == ImageKind::bgr) {}
 
   void makeRow(int v, std::uint8_t* out) const {
@@ -76,7 +78,8 @@ class Photograph {
     const float fx = u - static_cast<float>(x), fy = v - static_cast<float>(y);
     const std::ptrdiff_t width = picture_.width;
     for (int c = 0; c < channels_; ++c) {
-      const float* const p = picture_.brightness[static_cast<std::size_t>(c)].data() + y * width + x;
+      const float* const p =
+          picture_.brightness[static_cast<std::size_t>(c)].data() + y * width + x;
       const float upper = p[0] + fx * (p[1] - p[0]);
       const float lower = p[width] + fx * (p[width + 1] - p[width]);
       sum[static_cast<std::size_t>(c)] += upper + fy * (lower - upper);

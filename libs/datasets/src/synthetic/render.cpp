@@ -20,7 +20,9 @@ std::size_t pixelCount(const Rays& rays) {
   return static_cast<std::size_t>(rays.width()) * static_cast<std::size_t>(rays.height());
 }
 
-Vec3f bearingOf(const RayTile& tile, int i) { return {{tile.x[i], tile.y[i], tile.z[i]}}; }
+Vec3f bearingOf(const RayTile& tile, int i) {
+  return {{tile.x[i], tile.y[i], tile.z[i]}};
+}
 
 }  // namespace
 
@@ -82,8 +84,8 @@ void Renderer::traceBlock(const View& view, std::size_t block) {
   }
   TileHits hits;
   for (int row = first_row; row < std::min(first_row + kBlock, rays_->tileRows()); ++row) {
-    for (int column = first_column;
-         column < std::min(first_column + kBlock, rays_->tileColumns()); ++column) {
+    for (int column = first_column; column < std::min(first_column + kBlock, rays_->tileColumns());
+         ++column) {
       const RayTile& tile = rays_->tile(column, row);
       std::vector<std::int32_t>& in_tile = candidates_[rays_->index(column, row)];
       in_tile.clear();
@@ -131,7 +133,8 @@ bool Renderer::shadeUniform(const View& view, const RayTile& tile, int first_u, 
     return false;
   }
   const auto width = static_cast<std::size_t>(picture_.width);
-  const std::size_t first = static_cast<std::size_t>(first_v) * width + static_cast<std::size_t>(first_u);
+  const std::size_t first =
+      static_cast<std::size_t>(first_v) * width + static_cast<std::size_t>(first_u);
   const std::int32_t k = primitive_[first];
   if (k < 0) return false;
   float distances[kTileSize];
@@ -148,7 +151,8 @@ bool Renderer::shadeUniform(const View& view, const RayTile& tile, int first_u, 
   for (int i = 0; i < kTileSize; ++i) {
     const int x = i % kTileWidth, y = i / kTileWidth;
     const bool is_border = x == 0 || y == 0 || x == kTileWidth - 1 || y == kTileHeight - 1;
-    const std::size_t at = first + static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
+    const std::size_t at =
+        first + static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
     if (!(tile.pitch[i] > 0)) {
       store(at, {0, 0, 0});
     } else if (is_border && isEdge(first_u + x, first_v + y)) {

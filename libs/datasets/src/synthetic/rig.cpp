@@ -29,7 +29,15 @@ std::vector<double> usualLens(const std::string& model, int width, int height) {
   if (model == "equirectangular") return {};
   if (model == "ocam") {
     const double s = w / 640;
-    return {u, v, 1.002, 0.0014, 0.0001, -325.9 * s, 0, 8.61e-4 / s, -3.55e-8 / (s * s),
+    return {u,
+            v,
+            1.002,
+            0.0014,
+            0.0001,
+            -325.9 * s,
+            0,
+            8.61e-4 / s,
+            -3.55e-8 / (s * s),
             6.74e-9 / (s * s * s)};
   }
   return {0.625 * w, 0.625 * w, u, v};

@@ -24,12 +24,17 @@ inline Reading readingOf(const TexturePoint& at, float scale, float footprint) {
   const float count = small * ratio <= 1 ? 1.0F : wanted;
   const float step = small * ratio / count;
   const float each = std::max(std::max(small, step), 1.0F);
-  const float length = std::sqrt(std::max(at.along_s * at.along_s + at.along_t * at.along_t, 1e-12F));
+  const float length =
+      std::sqrt(std::max(at.along_s * at.along_s + at.along_t * at.along_t, 1e-12F));
   const float way = step / length;
   const float first = -0.5F * (count - 1);
   const float step_s = way * at.along_s, step_t = way * at.along_t;
-  return {at.s * scale + first * step_s, at.t * scale + first * step_t, step_s, step_t,
-          fastLog2(each), count};
+  return {at.s * scale + first * step_s,
+          at.t * scale + first * step_t,
+          step_s,
+          step_t,
+          fastLog2(each),
+          count};
 }
 
 // 0 to 1.

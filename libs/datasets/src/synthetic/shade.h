@@ -37,7 +37,9 @@ inline Colour mixed(const Colour& a, const Colour& b, float part) {
   return a * (1 - part) + b * part;
 }
 /// Brightness as BT.601 has it.
-inline float greyOf(const Colour& c) { return 0.299F * c.r + 0.587F * c.g + 0.114F * c.b; }
+inline float greyOf(const Colour& c) {
+  return 0.299F * c.r + 0.587F * c.g + 0.114F * c.b;
+}
 
 }  // namespace synthetic
 }  // namespace detail

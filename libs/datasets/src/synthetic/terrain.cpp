@@ -91,8 +91,7 @@ bool Terrain::hitCell(int i, int j, const Vec3f& origin, const Vec3f& ray, float
     const float slope_y = (half == 0 ? h11 - h10 : h01 - h00) / cell_;
     const float rate = ray[2] - slope_x * ray[0] - slope_y * ray[1];
     if (rate > -1e-9F) continue;  // from below
-    const float above =
-        origin[2] - h00 - slope_x * (origin[0] - x) - slope_y * (origin[1] - y);
+    const float above = origin[2] - h00 - slope_x * (origin[0] - x) - slope_y * (origin[1] - y);
     const float t = -above / rate;
     const float u = (origin[0] + t * ray[0] - x) / cell_, v = (origin[1] + t * ray[1] - y) / cell_;
     if (t <= 0 || u < -kSlack || v < -kSlack || u > 1 + kSlack || v > 1 + kSlack) continue;

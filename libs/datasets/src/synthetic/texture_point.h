@@ -23,8 +23,7 @@ struct TexturePoint {
 // Each takes a ray of length 1 in camera coordinates, and how far it goes.
 
 struct PlanePoint {
-  explicit PlanePoint(const SeenPrimitive& p)
-      : u(p.u), v(p.v), n(p.n), light(p.from->light) {
+  explicit PlanePoint(const SeenPrimitive& p) : u(p.u), v(p.v), n(p.n), light(p.from->light) {
     const float middle = p.from->shape == Shape::disc ? p.from->a : 0;
     s = middle + p.from->shift_s - p.along_u;
     t = middle + p.from->shift_t - p.along_v;
@@ -73,8 +72,11 @@ struct CylinderPoint {
     const float ru = p_.u.dot(ray), rv = p_.v.dot(ray), rn = p_.n.dot(ray), a = p_.from->a;
     const float nu = (distance * ru - p_.along_u) / a, nv = (distance * rv - p_.along_v) / a;
     const Vec3f world = nu * p_.from->u + nv * p_.from->v;
-    return {diamondAngle(nu, nv) * kQuarterTurn * a, distance * rn - p_.along_n,
-            rv * nu - ru * nv, rn, std::fabs(ru * nu + rv * nv),
+    return {diamondAngle(nu, nv) * kQuarterTurn * a,
+            distance * rn - p_.along_n,
+            rv * nu - ru * nv,
+            rn,
+            std::fabs(ru * nu + rv * nv),
             lightOnRound(world[0], world[1], world[2])};
   }
 
@@ -97,7 +99,7 @@ struct SpherePoint {
       s = folded;
     }
     const float half = 1.7725F * p_.from->a;  // the square has the sphere's area
-    return {(s + 1) * half, (t + 1) * half, 1, 1, std::max(std::fabs(normal.dot(ray)), 0.5F),
+    return {(s + 1) * half,       (t + 1) * half, 1, 1, std::max(std::fabs(normal.dot(ray)), 0.5F),
             lightOnRound(x, y, z)};
   }
 

@@ -18,8 +18,14 @@ constexpr float kNear = 0.02F;  // of the camera itself nothing is seen
 
 struct RectangleHit {
   explicit RectangleHit(const SeenPrimitive& p)
-      : u(p.u), v(p.v), n(p.n), along_u(p.along_u), along_v(p.along_v), along_n(p.along_n),
-        a(p.from->a), b(p.from->b) {}
+      : u(p.u),
+        v(p.v),
+        n(p.n),
+        along_u(p.along_u),
+        along_v(p.along_v),
+        along_n(p.along_n),
+        a(p.from->a),
+        b(p.from->b) {}
   float operator()(float x, float y, float z) const {
     const float t = along_n / (n[0] * x + n[1] * y + n[2] * z);
     const float s = t * (u[0] * x + u[1] * y + u[2] * z) - along_u;
@@ -58,8 +64,14 @@ struct SphereHit {
 // The circle that the cylinder is seen along its axis.
 struct CylinderHit {
   explicit CylinderHit(const SeenPrimitive& p)
-      : u(p.u), v(p.v), n(p.n), cu(p.along_u), cv(p.along_v), cn(p.along_n),
-        squared(p.from->a * p.from->a), length(p.from->b) {}
+      : u(p.u),
+        v(p.v),
+        n(p.n),
+        cu(p.along_u),
+        cv(p.along_v),
+        cn(p.along_n),
+        squared(p.from->a * p.from->a),
+        length(p.from->b) {}
   float operator()(float x, float y, float z) const {
     const float ru = u[0] * x + u[1] * y + u[2] * z;
     const float rv = v[0] * x + v[1] * y + v[2] * z;

@@ -11,7 +11,9 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-float clamp(float x, float low, float high) { return std::min(std::max(x, low), high); }
+float clamp(float x, float low, float high) {
+  return std::min(std::max(x, low), high);
+}
 
 // From the camera, at the origin, to a rectangle.
 float distanceTo(const SeenPrimitive& p, float a, float b) {
@@ -71,9 +73,8 @@ View::View(const Scene& all, const SE3d& T_world_camera, double seconds)
   const SE3d T_camera_world = T_world_camera.inverse();
   primitives.reserve(all.primitives.size());
   for (const Primitive& primitive : all.primitives) add(primitive, T_camera_world, seconds);
-  std::stable_sort(
-      primitives.begin(), primitives.end(),
-      [](const SeenPrimitive& a, const SeenPrimitive& b) { return a.near < b.near; });
+  std::stable_sort(primitives.begin(), primitives.end(),
+                   [](const SeenPrimitive& a, const SeenPrimitive& b) { return a.near < b.near; });
 }
 
 void View::add(const Primitive& primitive, const SE3d& T_camera_world, double seconds) {

@@ -40,8 +40,8 @@ struct View {
   Vec3f position{};                       ///< of the camera, world
 
   Vec3f toWorld(const Vec3f& direction) const {
-    return {{world_rows[0].dot(direction), world_rows[1].dot(direction),
-             world_rows[2].dot(direction)}};
+    return {
+        {world_rows[0].dot(direction), world_rows[1].dot(direction), world_rows[2].dot(direction)}};
   }
 
  private:

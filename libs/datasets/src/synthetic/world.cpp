@@ -20,7 +20,8 @@ Vec3d placeOnRectangle(double half_x, double half_y, double radius, double way, 
   double angle = 0;
   Vec3d middle = {{half_x - radius, -(half_y - radius), 0}};  // of the corner, before the edge
   for (int side = 0;; side = (side + 1) % 4, angle += kPi / 2) {
-    const Vec3d normal = {{std::cos(angle), std::sin(angle), 0}}, along = {{-normal[1], normal[0], 0}};
+    const Vec3d normal = {{std::cos(angle), std::sin(angle), 0}},
+                along = {{-normal[1], normal[0], 0}};
     if (way <= edges[side]) {
       outwards = normal;
       return middle + radius * normal + way * along;

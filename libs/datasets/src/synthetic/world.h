@@ -20,13 +20,14 @@ namespace synthetic {
 struct Route {
   /// World coordinates of a part of the way, 0 to 1. Also outside of it: it is periodic.
   std::function<Vec3d(double part)> place;
-  double length = 0;         ///< metres
-  double look_ahead = 1;     ///< metres: heads for the place that much before it
-  double swing = 0;          ///< radians: looks to both sides by that much
-  double shake_place = 0;    ///< metres
-  double shake_angle = 0;    ///< radians
-  double most_speed = 1;     ///< m/s
-  double control_step = 1;   ///< metres between the controls of the motion, at most
+  double length = 0;        ///< metres
+  double look_ahead = 1;    ///< metres: heads for the place that much before it
+  double look_left = 0;     ///< radians
+  double swing = 0;         ///< radians: looks to both sides by that much
+  double shake_place = 0;   ///< metres
+  double shake_angle = 0;   ///< radians
+  double most_speed = 1;    ///< m/s
+  double control_step = 1;  ///< metres between the controls of the motion, at most
 };
 
 struct World {

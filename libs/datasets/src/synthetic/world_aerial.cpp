@@ -10,7 +10,7 @@ namespace detail {
 namespace synthetic {
 namespace {
 
-constexpr float kHalf = 300;   // half the edge of the land
+constexpr float kHalf = 300;  // half the edge of the land
 constexpr int kCells = 60;
 constexpr float kRelief = 9;   // metres up and down
 constexpr float kFlight = 72;  // metres above the mean

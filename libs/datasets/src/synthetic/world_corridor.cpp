@@ -21,7 +21,8 @@ class Corridor {
   Corridor(std::uint64_t seed, float detail, Scene& scene)
       : build_(scene, seed, detail),
         x_(build_.random.uniform(5.5F, 7.5F)),
-        y_(build_.random.uniform(4.5F, 6)) {}
+        y_(build_.random.uniform(4.5F, 6)),
+        phase_(build_.random.uniform(0, 6.28F)) {}
 
   void make() {
     crates_ = build_.paintMany(Material::crate, 2, kExtent, kExtent, kTexel);
@@ -52,7 +53,7 @@ class Corridor {
 
   float x() const { return x_; }
   float y() const { return y_; }
-  float phase() { return build_.random.uniform(0, 6.28F); }
+  float phase() const { return phase_; }
 
  private:
   struct Axes {
@@ -86,8 +87,9 @@ class Corridor {
     const Vec3f way = is_inner ? -a.along : a.along;  // its right is where it is seen from
     const Vec3f from = middle - half * (-way), to = middle + half * (-way);
     const Material materials[3] = {Material::wallpaper, Material::plaster, Material::bricks};
-    build_.wall(from, to, kHeight,
-                build_.paint(materials[(side + (is_inner ? 1 : 0)) % 3], 2 * half, kHeight, kTexel));
+    build_.wall(
+        from, to, kHeight,
+        build_.paint(materials[(side + (is_inner ? 1 : 0)) % 3], 2 * half, kHeight, kTexel));
     const Vec3f inwards = is_inner ? a.out : -a.out;
     furnish(from, -way, inwards, 2 * half, is_inner);
     if (!is_inner) addPipe(middle + inwards * 0.16F, a.along, half);
@@ -109,7 +111,8 @@ class Corridor {
         const Material material = kind == 1 ? Material::notices : Material::poster;
         build_.wall(low + at * along, low + (at + width) * along, height,
                     build_.paint(material, width, height, kTexel));
-        if (!is_inner && kind == 2 && at > 2 && at < length - 3.5F) addThing(from, along, inwards, at);
+        if (!is_inner && kind == 2 && at > 2 && at < length - 3.5F)
+          addThing(from, along, inwards, at);
       }
       at += width + build_.random.uniform(0.25F, 0.9F);
     }
@@ -144,6 +147,7 @@ class Corridor {
 
   Builder build_;
   float x_, y_;  // half edges of the way along the middle
+  float phase_;  // of its waves, which things that move do not change
   std::vector<Surface> crates_, metal_, doors_;
 };
 

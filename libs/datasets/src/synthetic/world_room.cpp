@@ -28,7 +28,8 @@ class Room {
   Room(std::uint64_t seed, float detail, Scene& scene)
       : build_(scene, seed, detail),
         x_(build_.random.uniform(4.5F, 5.25F)),
-        y_(build_.random.uniform(5, 6)) {}
+        y_(build_.random.uniform(5, 6)),
+        phase_(build_.random.uniform(0, 6.28F)) {}
 
   void make() {
     makeShell();
@@ -68,7 +69,7 @@ class Room {
 
   float x() const { return x_; }
   float y() const { return y_; }
-  float phase() { return build_.random.uniform(0, 6.28F); }
+  float phase() const { return phase_; }
 
  private:
   void makeShell() {
@@ -176,6 +177,7 @@ class Room {
 
   Builder build_;
   float x_, y_;  // half edges
+  float phase_;  // of the waves of the way, which things that move do not change
   std::vector<std::vector<Surface>> things_;
   std::vector<Surface> books_;
   Surface wood_;
@@ -191,7 +193,8 @@ void makeRoom(std::uint64_t seed, float detail, int movers, World& world) {
   setRoundedRectangle(route, double(room.x()) - 1.75, double(room.y()) - 1.75, 2.3, 1.5, 0.2,
                       double(room.phase()));
   route.look_ahead = 1.6;
-  route.swing = 0.35;
+  route.look_left = 0.25;  // where the table is
+  route.swing = 0.55;
   route.shake_place = 0.012;
   route.shake_angle = 0.015;
   route.most_speed = 2.5;

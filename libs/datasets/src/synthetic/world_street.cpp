@@ -10,9 +10,9 @@ namespace detail {
 namespace synthetic {
 namespace {
 
-constexpr float kRoad = 4.6F;      // from the middle of the road to its kerb
-constexpr float kHouse = 8.5F;     // and to the houses
-constexpr float kExtent = 24;      // of facades
+constexpr float kRoad = 4.6F;   // from the middle of the road to its kerb
+constexpr float kHouse = 8.5F;  // and to the houses
+constexpr float kExtent = 24;   // of facades
 constexpr float kTexel = 0.02F;
 const Vec3f kUp = {{0, 0, 1}};
 
@@ -145,7 +145,8 @@ class Street {
     const Surface& paint = build_.any(cars_);
     const Vec3f along = {{std::cos(yaw), std::sin(yaw), 0}};
     build_.box(base + 0.15F * kUp, {{4.2F, 1.7F, 0.75F}}, yaw, paint, paint, 6, mover);
-    build_.box(base + 0.9F * kUp - 0.2F * along, {{2.3F, 1.5F, 0.55F}}, yaw, paint, paint, 6, mover);
+    build_.box(base + 0.9F * kUp - 0.2F * along, {{2.3F, 1.5F, 0.55F}}, yaw, paint, paint, 6,
+               mover);
   }
 
   void addKiosk(const Vec3f& base, float yaw) {

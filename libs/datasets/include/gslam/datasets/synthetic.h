@@ -21,10 +21,10 @@ inline namespace v1 {
 
 /// What is rendered. Two datasets with equal options have the same bytes, on any number of threads.
 ///
-/// **Frames of reference.** World: x east, y north, z up, metres. Body: x forward, y left, z up; the
-/// inertial unit and the satellite antenna are at its origin. Cameras of the rigs look forward, in
-/// the aerial world 56 degrees down. Stamps begin at one second; the stamp of a frame is the middle
-/// of its exposure.
+/// **Frames of reference.** World: x east, y north, z up, metres. Body: x forward, y left, z up;
+/// the inertial unit and the satellite antenna are at its origin. Cameras of the rigs look forward,
+/// in the aerial world 56 degrees down. Stamps begin at one second; the stamp of a frame is the
+/// middle of its exposure.
 ///
 /// **Light.** What is seen is as bright from wherever it is seen, and all the time.
 ///
@@ -40,16 +40,16 @@ struct SyntheticOptions {
   std::uint64_t seed = 1;  ///< of everything: the things, the way, the errors of the sensors
   int frames = 600;        ///< 1 to 100000, with those that are dropped
   double rate = 20;        ///< frames a second, 0.1 to 1000
-  /// Speed along the way, m/s. 0: as fast as it takes to come around in all frames, so that the
-  /// last frame sees what the first did, but no faster than somebody would go: 2.5 in room and
-  /// corridor, 15 in the street, 40 in the air.
+  /// Speed along the way, 0.01 to 1000 m/s. 0: as fast as it takes to come around in all frames, so
+  /// that the last frame sees what the first did, but no faster than somebody would go: 2.5 in room
+  /// and corridor, 15 in the street, 40 in the air.
   double speed = 0;
   int movers = 0;  ///< things that move by themselves, 0 to 50
   /// @}
 
   /// @name Cameras
   /// @{
-  std::string sensors = "rgbd";  ///< mono, stereo, rgbd, or multi: front, left, back, right
+  std::string sensors = "rgbd";   ///< mono, stereo, rgbd, or multi: front, left, back, right
   std::string model = "pinhole";  ///< a name of Camera::modelNames()
   int width = 640;                ///< pixels
   int height = 480;               ///< pixels
@@ -64,30 +64,30 @@ struct SyntheticOptions {
   /// @name Errors of cameras
   /// Defaults are those of a cheap camera, so that nothing is tuned to a clean world.
   /// @{
-  double noise = 1;              ///< factor on all noise and biases, of all sensors; 0: none
-  double image_noise = 2;        ///< standard deviation of each pixel and channel, grey levels
-  bool blur = true;              ///< smears what moves while the shutter is open
-  double exposure = 0.008;       ///< how long it is, seconds, 0 to 1 / rate
-  double exposure_change = 0;    ///< brightness swings by this part of it, 0 to 0.9, in 7 s
-  double vignette = 0;           ///< part of the brightness that the corners lack, 0 to 1
-  double depth_noise = 0.0015;   ///< standard deviation at 1 m; it grows with depth squared
-  double depth_max = 0;          ///< farthest depth, metres; 0: whatever the numbers can hold
-  bool depth_float = false;      ///< depth as f32 in metres; else u16 in 1 mm, street 2, aerial 5
+  double noise = 1;             ///< factor on all noise and biases, of all sensors; 0: none
+  double image_noise = 2;       ///< standard deviation of each pixel and channel, grey levels
+  bool blur = true;             ///< smears what moves while the shutter is open
+  double exposure = 0.008;      ///< how long it is, seconds, 0 to 1 / rate
+  double exposure_change = 0;   ///< brightness swings by this part of it, 0 to 0.9, in 7 s
+  double vignette = 0;          ///< part of the brightness that the corners lack, 0 to 1
+  double depth_noise = 0.0015;  ///< standard deviation at 1 m; it grows with depth squared
+  double depth_max = 0;         ///< farthest depth, metres; 0: whatever the numbers can hold
+  bool depth_float = false;     ///< depth as f32 in metres; else u16 in 1 mm, street 2, aerial 5
   /// @}
 
   /// @name Other sensors
   /// @{
-  bool imu = true;                 ///< an inertial unit
-  double imu_rate = 200;           ///< samples a second, 1 to 10000
-  double gyro_noise = 1.7e-4;      ///< rad/s/sqrt(Hz), as EuRoC's
-  double accel_noise = 2e-3;       ///< m/s^2/sqrt(Hz)
-  double gyro_bias_walk = 2e-5;    ///< rad/s^2/sqrt(Hz)
-  double accel_bias_walk = 3e-3;   ///< m/s^3/sqrt(Hz)
-  double gyro_bias = 0.01;         ///< standard deviation of the bias at first, rad/s
-  double accel_bias = 0.05;        ///< and of this one, m/s^2
-  bool gnss = false;               ///< a satellite receiver, near 47.4 N 8.5 E
-  double gnss_rate = 5;            ///< positions a second, 0.1 to 100
-  double gnss_noise = 0.5;         ///< standard deviation east and north, metres; twice of it up
+  bool imu = true;                ///< an inertial unit
+  double imu_rate = 200;          ///< samples a second, 1 to 10000
+  double gyro_noise = 1.7e-4;     ///< rad/s/sqrt(Hz), as EuRoC's
+  double accel_noise = 2e-3;      ///< m/s^2/sqrt(Hz)
+  double gyro_bias_walk = 2e-5;   ///< rad/s^2/sqrt(Hz)
+  double accel_bias_walk = 3e-3;  ///< m/s^3/sqrt(Hz)
+  double gyro_bias = 0.01;        ///< standard deviation of the bias at first, rad/s
+  double accel_bias = 0.05;       ///< and of this one, m/s^2
+  bool gnss = false;              ///< a satellite receiver, near 47.4 N 8.5 E
+  double gnss_rate = 5;           ///< positions a second, 0.1 to 100
+  double gnss_noise = 0.5;        ///< standard deviation east and north, metres; twice of it up
   /// @}
 
   /// @name Degradations, at these frames
