@@ -86,7 +86,7 @@ TEST(SyntheticGeometry, WholeNumbersOfDepthAreThatDepth) {
   SyntheticOptions options = clean("street");
   const auto exact = frameAt(*gslam::openSynthetic(options), 50);
   options.depth_float = false;
-  options.depth_max = 25;
+  options.depth_max = 10;
   const auto whole = frameAt(*gslam::openSynthetic(options), 50);
   const double scale = whole->images[1].depth_scale;
   EXPECT_EQ(scale, 0.002);
@@ -95,7 +95,7 @@ TEST(SyntheticGeometry, WholeNumbersOfDepthAreThatDepth) {
     for (int u = 0; u < 640; ++u) {
       const double depth = double(exact->images[1].image.at<float>(u, v));
       const double found = whole->images[1].image.at<std::uint16_t>(u, v) * scale;
-      if (depth > 25) {
+      if (depth > 10) {
         ++beyond;
         EXPECT_EQ(found, 0);
       } else {

@@ -20,7 +20,7 @@ struct Reading {
 inline Reading readingOf(const TexturePoint& at, float scale, float footprint) {
   const float small = footprint * scale;
   const float ratio = 1 / std::max(at.cosine, 0.05F);
-  const float wanted = std::min(4.0F, static_cast<float>(static_cast<int>(0.75F * ratio + 0.6F)));
+  const float wanted = std::min(4.0F, static_cast<float>(static_cast<int>(0.6F * ratio + 0.55F)));
   const float count = small * ratio <= 1 ? 1.0F : wanted;
   const float step = small * ratio / count;
   const float each = std::max(std::max(small, step), 1.0F);

@@ -48,7 +48,7 @@ class Texture {
     level = std::min(std::max(level, 0.0F), last);
     const int fine = static_cast<int>(level);
     // Mixed only in the middle between two levels: that is half the work, and not seen.
-    const float part = (level - static_cast<float>(fine) - 0.3F) * 2.5F;
+    const float part = (level - static_cast<float>(fine) - 0.35F) * (1 / 0.3F);
     const auto first = static_cast<std::size_t>(fine);
     if (part <= 0) return bilinear(levels_[first], x, y);
     if (part >= 1) return bilinear(levels_[first + 1], x, y);
@@ -59,7 +59,8 @@ class Texture {
  private:
   struct Level {
     int width, height;
-    float scale;  // texels of this level in one of the finest
+    float scale;           // texels of this level in one of the finest
+    float last_x, last_y;  // just before the last texel, so that there are four around
     std::size_t first;
   };
 
@@ -76,7 +77,8 @@ class Texture {
   void addLevel(int width, int height) {
     const std::size_t first = data_.size();
     const float scale = std::ldexp(1.0F, -static_cast<int>(levels_.size()));
-    levels_.push_back({width, height, scale, first});
+    levels_.push_back({width, height, scale, std::nextafter(static_cast<float>(width - 1), 0.0F),
+                       std::nextafter(static_cast<float>(height - 1), 0.0F), first});
     data_.resize(first + static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   }
 
@@ -97,10 +99,9 @@ class Texture {
   }
 
   float bilinear(const Level& level, float x, float y) const {
-    x = std::min(std::max(x * level.scale - 0.5F, 0.0F), static_cast<float>(level.width - 1));
-    y = std::min(std::max(y * level.scale - 0.5F, 0.0F), static_cast<float>(level.height - 1));
-    const int ix = std::min(static_cast<int>(x), level.width - 2);
-    const int iy = std::min(static_cast<int>(y), level.height - 2);
+    x = std::min(std::max(x * level.scale - 0.5F, 0.0F), level.last_x);
+    y = std::min(std::max(y * level.scale - 0.5F, 0.0F), level.last_y);
+    const int ix = static_cast<int>(x), iy = static_cast<int>(y);
     const float fx = x - static_cast<float>(ix), fy = y - static_cast<float>(iy);
     const std::uint8_t* const a =
         data_.data() + level.first + std::ptrdiff_t(iy) * level.width + ix;
