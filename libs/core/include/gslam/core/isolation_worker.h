@@ -109,11 +109,9 @@ class IsolationWorker {
   }
 
   std::vector<char> handle(MessageKind kind, MessageReader& in) {
-    if (kind == MessageKind::create) {
-      create(in);
-    } else if (!slam_) {
-      throw Error("there is no SLAM system: making it failed");
-    } else if (kind == MessageKind::configure) {
+    if (kind == MessageKind::create) return create(in);
+    if (!slam_) throw Error("there is no SLAM system: making it failed");
+    if (kind == MessageKind::configure) {
       configure(in);
     } else if (kind == MessageKind::feed) {
       feed(in);
@@ -127,7 +125,8 @@ class IsolationWorker {
     return {};
   }
 
-  void create(MessageReader& in) {
+  // Gives back what the host is to know of the system, whose plugin it does not load itself.
+  std::vector<char> create(MessageReader& in) {
     const std::string slam = in.text();
     std::vector<std::string> folders(in.count(sizeof(std::uint64_t)));
     for (std::string& folder : folders) folder = in.text();
@@ -136,8 +135,11 @@ class IsolationWorker {
     if (folders.empty()) folders = defaultPluginFolders();
     plugins_.reset(new Plugins(folders));
     if (prepare_) prepare_(*plugins_);
-    slam_ = plugins_->slam(slam).make();
-    if (!slam_) throw Error("the factory of SLAM system '" + slam + "' made none");
+    const SlamFactory factory = plugins_->slam(slam);
+    slam_ = makeSlam(factory);
+    MessageWriter out;
+    writeFactory(out, factory);
+    return out.bytes();
   }
 
   void configure(MessageReader& in) {

@@ -5,8 +5,10 @@
 #include <gslam/core/build_facts.h>
 #include <gslam/core/detail/message_bytes.h>
 #include <gslam/core/frame.h>
+#include <gslam/core/registry.h>
 #include <gslam/core/rig.h>
 #include <gslam/core/slam.h>
+#include <gslam/svar/json.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -68,6 +70,36 @@ struct SharedSlot {
 
 inline void writeBoolean(MessageWriter& out, bool value) {
   out.raw(std::uint8_t(value ? 1 : 0));
+}
+
+// What is known of a SLAM system before it is configured.
+inline void writeFactory(MessageWriter& out, const SlamFactory& factory) {
+  out.text(factory.name);
+  out.text(factory.description);
+  out.text(printJson(factory.parameters));
+  out.raw(std::int32_t(factory.needs.cameras));
+  writeBoolean(out, factory.needs.depth);
+  writeBoolean(out, factory.needs.imu);
+  writeBoolean(out, factory.needs.gnss);
+  writeBoolean(out, factory.needs.calibration);
+}
+
+inline bool readFlag(MessageReader& in) {
+  return in.number<std::uint8_t>() != 0;
+}
+
+inline SlamFactory readFactory(MessageReader& in) {
+  SlamFactory factory;
+  factory.name = in.text();
+  factory.description = in.text();
+  factory.parameters = parseJson(in.text(), "parameters");
+  factory.needs.cameras = in.number<std::int32_t>();
+  factory.needs.depth = readFlag(in);
+  factory.needs.imu = readFlag(in);
+  factory.needs.gnss = readFlag(in);
+  factory.needs.calibration = readFlag(in);
+  in.expectEnd();
+  return factory;
 }
 
 inline void writeSensors(MessageWriter& out, const SensorRig& rig) {
