@@ -162,7 +162,10 @@ gslam::DatasetFactory carouselFactory() {
   factory.description = "A vehicle on a circle, computed: a camera, an IMU, exact ground truth";
   factory.parameters = gslam::Svar::object(
       {{"radius", 2.0}, {"duration", 10.0}, {"camera_rate", 20.0}, {"imu_rate", 200.0}});
-  factory.open = [](const std::string&, const gslam::Svar& parameters) {
+  factory.open = [](const std::string& path, const gslam::Svar& parameters) {
+    if (path != "carousel" && path != "carousel://") {
+      throw gslam::FileError(path, "is no carousel, which is computed: expected the name alone");
+    }
     return std::unique_ptr<gslam::Dataset>(new Carousel(parameters));
   };
   return factory;

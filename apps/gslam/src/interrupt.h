@@ -5,11 +5,11 @@
 
 namespace app {
 
-/// Makes Ctrl-C and SIGTERM wait for a thread that may do anything, instead of a signal handler,
-/// which may do little. To be called before any other thread starts.
+/// Makes Ctrl-C, SIGTERM and SIGHUP wait for a thread that may do anything, instead of a signal
+/// handler, which may do little. To be called before any other thread starts.
 void holdInterrupts();
 
-/// Calls a function at the first Ctrl-C or SIGTERM while it lives. At the second, and where none
+/// Calls a function at the first of these signals while it lives. At the second, and where none
 /// lives, the process ends with kInterrupted. One at a time.
 class OnInterrupt {
  public:

@@ -1,11 +1,11 @@
 // The command `gslam`: finds the sub-command and says how it ended.
+#include <gslam/core/detail/exception_text.h>
 #include <gslam/core/isolation_worker.h>
 #include <gslam/core/version.h>
 #include <gslam/svar/detail/nearest_name.h>
 #include <gslam/svar/error.h>
 
 #include <cstddef>
-#include <exception>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -86,8 +86,8 @@ int main(int argc, char** argv) {
   } catch (const gslam::ConfigError& error) {
     std::cerr << what << ": " << error.what() << "\nTry `" << what << " --help`.\n";
     return app::kUsage;
-  } catch (const std::exception& error) {
-    std::cerr << what << ": " << error.what() << '\n';
+  } catch (...) {
+    std::cerr << what << ": " << gslam::detail::exceptionText() << '\n';
     return app::kFailure;
   }
 }

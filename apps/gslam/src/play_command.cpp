@@ -62,9 +62,10 @@ int save(Session& session, const Options& options, const std::string& folder) {
 }
 
 int play(Session& session, const Options& options) {
+  const OnInterrupt interrupt([&session] { session.stop(); });
   const gslam::RunResult result = session.play();
   if (options.isJson()) {
-    std::cout << gslam::printJson(describe(result)) << '\n';
+    std::cout << gslam::printJson(app::describe(result)) << '\n';
   } else {
     printResult(result, session.hasSlam());
   }

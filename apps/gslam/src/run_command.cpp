@@ -4,55 +4,61 @@
 #include <sys/stat.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <iostream>
 
 #include "command.h"
+#include "interrupt.h"
 #include "session.h"
 
 namespace app {
 namespace {
 
-// Makes a folder and those it lies in.
-void makeFolder(const std::string& path) {
-  for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
-    const std::string part = path.substr(0, end);
-    if (mkdir(part.c_str(), 0777) != 0 && errno != EEXIST) {
-      throw gslam::FileError(part, "cannot be made", errno);
+// The files of one run in a folder.
+class Results {
+ public:
+  // Makes the folder and those it lies in, and removes the results of a run before.
+  explicit Results(std::string folder) : folder_(std::move(folder)) {
+    if (folder_.empty()) throw gslam::ConfigError("--out", "is empty, expected a folder");
+    makeFolder();
+    for (const std::string& file : {trajectory(), map(), report()}) {
+      if (std::remove(file.c_str()) != 0 && errno != ENOENT) {
+        throw gslam::FileError(file, "of a run before cannot be removed", errno);
+      }
     }
-    if (end == std::string::npos) break;
   }
-  struct stat facts = {};
-  if (stat(path.c_str(), &facts) != 0 || !S_ISDIR(facts.st_mode)) {
-    throw gslam::FileError(path, "is no folder");
+
+  std::string trajectory() const { return folder_ + "/trajectory.txt"; }
+  std::string map() const { return folder_ + "/map.gmap"; }
+  std::string report() const { return folder_ + "/run.json"; }
+
+  void keepPoses(const gslam::RunResult& result) const {
+    gslam::writeTrajectory(trajectory(), result.trajectory);
   }
-}
+  // The report first: it is there even where the others cannot be written.
+  void keepAll(const gslam::Svar& protocol, const gslam::RunResult& result) const {
+    protocol.save(report());
+    keepPoses(result);
+    if (result.map != nullptr) gslam::saveMap(map(), *result.map);
+  }
 
-// What ran, so that it can be run again.
-gslam::Svar protocol(const Options& options, Session& session, const gslam::RunResult& result) {
-  const gslam::DatasetInfo& info = session.dataset().info();
-  return gslam::Svar::object(
-      {{"gslam", GSLAM_CORE_VERSION},
-       {"dataset",
-        gslam::Svar::object({{"given", session.given()},
-                             {"name", info.name},
-                             {"format", info.format},
-                             {"parameters", options.get<gslam::Svar>("dataset-param")}})},
-       {"slam", gslam::Svar::object({{"given", options.get<std::string>("slam")},
-                                     {"name", session.slamName()},
-                                     {"parameters", session.parameters()},
-                                     {"isolated", options.get<bool>("isolate")}})},
-       {"pace", options.get<std::string>("pace")},
-       {"speed", options.get<double>("speed")},
-       {"first", options.get<std::size_t>("first")},
-       {"count", options.get<std::size_t>("count")},
-       {"result", describe(result)}});
-}
+ private:
+  void makeFolder() const {
+    for (std::size_t end = folder_.find('/', 1);; end = folder_.find('/', end + 1)) {
+      const std::string part = folder_.substr(0, end);
+      if (mkdir(part.c_str(), 0777) != 0 && errno != EEXIST) {
+        throw gslam::FileError(part, "cannot be made", errno);
+      }
+      if (end == std::string::npos) break;
+    }
+    struct stat facts = {};
+    if (stat(folder_.c_str(), &facts) != 0 || !S_ISDIR(facts.st_mode)) {
+      throw gslam::FileError(folder_, "is no folder");
+    }
+  }
 
-void keep(const std::string& folder, const gslam::Svar& protocol, const gslam::RunResult& result) {
-  gslam::writeTrajectory(folder + "/trajectory.txt", result.trajectory);
-  if (result.map != nullptr) gslam::saveMap(folder + "/map.gmap", *result.map);
-  protocol.save(folder + "/run.json");
-}
+  std::string folder_;
+};
 
 }  // namespace
 
@@ -61,7 +67,8 @@ int runCommand(const std::vector<std::string>& arguments) {
       "gslam run DATASET --slam S --out DIR [options]",
       "Runs a SLAM system on a dataset. Writes DIR/trajectory.txt (TUM format, "
       "T_world_body), DIR/run.json (what ran and how it ended) and, where there is one, "
-      "DIR/map.gmap. A run that fails or is stopped keeps what it has.");
+      "DIR/map.gmap, in place of those of a run before. A run that fails or is stopped "
+      "keeps what it has.");
   Session::declare(options);
   options.arg<std::string>("out", "folder for the results").shortName("o").group("What");
   if (!options.read(arguments)) return kSuccess;
@@ -69,16 +76,19 @@ int runCommand(const std::vector<std::string>& arguments) {
     throw gslam::ConfigError("--slam", "must be given: name or file of the SLAM system");
   }
   Session session(options);
-  const auto folder = options.get<std::string>("out");
-  makeFolder(folder);
-  const gslam::RunResult result = session.play();
-  const gslam::Svar report = protocol(options, session, result);
-  keep(folder, report, result);
+  const OnInterrupt interrupt([&session] { session.stop(); });
+  const Results results(options.get<std::string>("out"));
+  const gslam::RunResult result =
+      session.play([&results](const gslam::RunResult& so_far) { results.keepPoses(so_far); });
+  gslam::Svar report = session.protocol();
+  report.set("gslam", GSLAM_CORE_VERSION);
+  report.set("result", describe(result));
+  results.keepAll(report, result);
   if (options.isJson()) {
     std::cout << gslam::printJson(report) << '\n';
   } else {
     printResult(result, true);
-    std::cout << "results: " << folder << "/trajectory.txt, run.json"
+    std::cout << "results: " << results.trajectory() << ", run.json"
               << (result.map != nullptr ? ", map.gmap" : "") << '\n';
   }
   return statusOf(result.play);

@@ -1,17 +1,17 @@
 #include "session.h"
 
 #include <gslam/core/isolated_slam.h>
-#include <gslam/core/open_dataset.h>
 
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <iostream>
 #include <utility>
+#include <vector>
 
 #include "command.h"
-#include "interrupt.h"
 #include "progress.h"
+#include "stdout_guard.h"
 
 namespace app {
 namespace {
@@ -24,10 +24,6 @@ std::string datasetOf(const Options& options) {
   return named;
 }
 
-std::vector<std::string> paces() {
-  return {"every_frame", "real_time"};
-}
-
 gslam::PlayOptions playOptions(const Options& options) {
   gslam::PlayOptions play;
   const bool is_paced = options.get<std::string>("pace") == "real_time";
@@ -37,6 +33,29 @@ gslam::PlayOptions playOptions(const Options& options) {
   const auto count = options.get<std::size_t>("count");
   if (count > 0) play.count = count;
   return play;
+}
+
+// The defaults with what the user gave by an option, whose name errors have.
+gslam::Svar complete(const gslam::Svar& defaults, const Options& options, const char* option) {
+  const auto given = options.get<gslam::Svar>(option);
+  try {
+    return gslam::completeParameters(defaults, given);
+  } catch (const gslam::SvarError& error) {
+    const std::string name = error.path().empty() ? "" : "." + error.path();
+    throw gslam::ConfigError(std::string("--") + option + name, error.problem());
+  }
+}
+
+// The plugin that brought a SLAM system, and the file it is in.
+gslam::Svar describePlugin(const gslam::Plugins& plugins, const std::string& slam) {
+  for (const gslam::Plugin& plugin : plugins.loaded()) {
+    for (const gslam::SlamFactory& factory : plugin.factories.slams()) {
+      if (factory.name != slam) continue;
+      return gslam::Svar::object(
+          {{"name", plugin.name}, {"version", plugin.version}, {"path", plugin.path}});
+    }
+  }
+  return nullptr;
 }
 
 const char* endName(gslam::PlayEnd end) {
@@ -55,12 +74,20 @@ std::string seconds(double value) {
   return text.substr(0, text.find('.') + 3) + " s";
 }
 
+void checkNeedless(const Options& options) {
+  if (!options.get<std::string>("slam").empty()) return;
+  if (options.get<gslam::Svar>("param").size() > 0) {
+    throw gslam::ConfigError("--param", "is for a SLAM system: say which by --slam");
+  }
+  if (options.get<bool>("isolate")) {
+    throw gslam::ConfigError("--isolate", "is for a SLAM system: say which by --slam");
+  }
+}
+
 }  // namespace
 
 void Session::declare(Options& options) {
-  options
-      .arg<std::string>("dataset", "",
-                        "file, folder, KIND:PATH or KIND://...; see `gslam datasets`")
+  options.arg<std::string>("dataset", "", "file, folder, KIND:PATH or KIND://...")
       .shortName("d")
       .group("What");
   options.arg<std::string>("slam", "", "name or file of the SLAM system")
@@ -79,56 +106,96 @@ void Session::declare(Options& options) {
       .range(0.001, 86400)
       .group("How");
   options.arg<std::string>("pace", "every_frame", "when the next frame goes out")
-      .choices(paces())
+      .choices({"every_frame", "real_time"})
       .group("How");
   options.arg<double>("speed", 1, "of the clock, in real time").range(0.001, 1000).group("How");
   options.arg<std::size_t>("first", 0, "number of the first frame").group("How");
   options.arg<std::size_t>("count", 0, "most frames that are played; 0: all").group("How");
 }
 
-Session::Session(const Options& options)
-    : play_(playOptions(options)), given_(datasetOf(options)), plugins_(new gslam::Plugins) {
-  dataset_ = gslam::openDataset(*plugins_, given_, options.get<gslam::Svar>("dataset-param"));
-  if (!options.get<std::string>("slam").empty()) makeSlam(*plugins_, options);
+Session::Session(const Options& options) : play_(playOptions(options)) {
+  checkNeedless(options);
+  const StdoutGuard guard;  // what plugins print
+  const std::string name = datasetOf(options);
+  const gslam::FoundDataset found = gslam::findDataset(plugins_, name);
+  const gslam::Svar given = complete(found.factory.parameters, options, "dataset-param");
+  dataset_ = gslam::openDataset(found, given);
+  const gslam::DatasetInfo& info = dataset_->info();
+  if (info.frame_count > 0 && play_.first >= info.frame_count) {
+    throw gslam::ConfigError("--first", "is " + std::to_string(play_.first) + ", but there are " +
+                                            std::to_string(info.frame_count) + " frames");
+  }
+  protocol_ = gslam::Svar::object({{"dataset", gslam::Svar::object({{"given", name},
+                                                                    {"name", info.name},
+                                                                    {"format", info.format},
+                                                                    {"parameters", given}})}});
+  if (!options.get<std::string>("slam").empty()) makeSlam(options);
+  for (const char* const option : {"pace", "speed", "first", "count", "timeout"}) {
+    protocol_.set(option, options.get<gslam::Svar>(option));
+  }
+  player_ = std::make_unique<gslam::Player>(*dataset_, messenger_);
 }
 
-void Session::makeSlam(gslam::Plugins& plugins, const Options& options) {
+void Session::makeSlam(const Options& options) {
   const auto name = options.get<std::string>("slam");
-  const gslam::SlamFactory factory = plugins.slam(name);
-  const std::string missing = gslam::missingSensors(factory.needs, dataset_->info().sensors);
-  if (!missing.empty()) {
-    throw gslam::Error("SLAM system '" + factory.name + "' needs what dataset '" +
-                       dataset_->info().name + "' lacks: " + missing);
-  }
-  slam_name_ = factory.name;
-  parameters_ = gslam::completeParameters(factory.parameters, options.get<gslam::Svar>("param"));
-  if (options.get<bool>("isolate")) {
-    gslam::IsolationOptions isolation;
-    isolation.slam = name;
-    isolation.feed_limit =
-        std::chrono::milliseconds(static_cast<std::int64_t>(options.get<double>("timeout") * 1000));
-    slam_ = std::make_unique<gslam::IsolatedSlam>(isolation);
+  const bool is_isolated = options.get<bool>("isolate");
+  if (is_isolated) {
+    makeIsolatedSlam(options);
   } else {
-    slam_ = factory.make();
+    factory_ = plugins_.slam(name);
+    checkSensors(factory_);
   }
+  parameters_ = complete(factory_.parameters, options, "param");
+  if (!is_isolated) slam_ = gslam::makeSlam(factory_);
+  protocol_.set("slam", gslam::Svar::object({{"given", name},
+                                             {"name", factory_.name},
+                                             {"plugin", describePlugin(plugins_, factory_.name)},
+                                             {"parameters", parameters_},
+                                             {"isolated", is_isolated}}));
 }
 
-gslam::RunResult Session::play() {
-  const gslam::Messenger messenger;
+// Its plugin is loaded in the other process alone, whose crash is a failure like others.
+void Session::makeIsolatedSlam(const Options& options) {
+  gslam::IsolationOptions isolation;
+  isolation.slam = options.get<std::string>("slam");
+  isolation.feed_limit =
+      std::chrono::milliseconds(static_cast<std::int64_t>(options.get<double>("timeout") * 1000));
+  auto slam = std::make_unique<gslam::IsolatedSlam>(isolation);
+  factory_ = slam->factory();
+  checkSensors(factory_);
+  slam_ = std::move(slam);
+}
+
+void Session::checkSensors(const gslam::SlamFactory& factory) const {
+  const std::string missing = gslam::missingSensors(factory.needs, dataset_->info().sensors);
+  if (missing.empty()) return;
+  throw gslam::Error("SLAM system '" + factory.name + "' needs what dataset '" +
+                     dataset_->info().name + "' lacks: " + missing);
+}
+
+gslam::Svar Session::protocol() const {
+  return protocol_.clone();
+}
+
+gslam::RunResult Session::play(const std::function<void(const gslam::RunResult&)>& on_played) {
+  const StdoutGuard guard;  // what SLAM systems print
   Progress progress;
-  progress.follow(messenger);
-  gslam::Player player(*dataset_, messenger);
-  const OnInterrupt interrupt([&player] { player.stop(); });
+  progress.follow(messenger_);
   if (slam_ == nullptr) {
     gslam::RunResult result;
-    result.play = player.play(play_);
+    result.play = player_->play(play_);
     return result;
   }
   gslam::RunSetup setup;
-  setup.name = slam_name_;
+  setup.name = factory_.name;
   setup.parameters = parameters_;
   setup.play = play_;
-  return gslam::runSlam(*slam_, player, *dataset_, setup, messenger);
+  setup.on_played = on_played;
+  return gslam::runSlam(*slam_, *player_, *dataset_, setup, messenger_);
+}
+
+void Session::stop() {
+  player_->stop();
 }
 
 int statusOf(const gslam::PlayReport& report) {
@@ -170,9 +237,11 @@ void printResult(const gslam::RunResult& result, bool has_slam) {
   if (result.invalid_poses > 0) {
     std::cout << "poses that were not finite: " << result.invalid_poses << '\n';
   }
-  if (play.end == gslam::PlayEnd::failed) {
-    std::cerr << "failed at frame " << play.last_frame << ": " << play.failure << '\n';
-  }
+  if (play.end != gslam::PlayEnd::failed) return;
+  std::cout.flush();
+  std::cerr << "failed";
+  if (play.played > 0) std::cerr << " at frame " << play.last_frame;
+  std::cerr << ": " << play.failure << '\n';
 }
 
 }  // namespace app

@@ -2,9 +2,12 @@
 #define GSLAM_APPS_SESSION_H
 
 #include <gslam/core.h>
+#include <gslam/core/open_dataset.h>
 #include <gslam/core/plugins.h>
 
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "options.h"
@@ -21,28 +24,34 @@ class Session {
   /// @throws Error when either fails, or the dataset lacks a sensor that the system needs
   explicit Session(const Options& options);
 
-  /// Whether there is a SLAM system.
-  bool hasSlam() const { return slam_ != nullptr; }
-  gslam::Dataset& dataset() { return *dataset_; }                ///< as opened
-  const std::string& given() const { return given_; }            ///< what the user called it
-  const std::string& slamName() const { return slam_name_; }     ///< as its plugin has it
-  const gslam::Svar& parameters() const { return parameters_; }  ///< of the system, all
-
+  bool hasSlam() const { return slam_ != nullptr; }            ///< whether there is a system
+  gslam::Dataset& dataset() { return *dataset_; }              ///< as opened
   const gslam::PlayOptions& options() const { return play_; }  ///< which frames, how fast
 
-  /// Plays the dataset, with a line of progress, until the end or Ctrl-C.
-  gslam::RunResult play();
+  /// What plays, so that it can be played again: for machines.
+  gslam::Svar protocol() const;
+
+  /// Plays the dataset, with a line of progress, until the end or stop().
+  /// @param on_played  see RunSetup
+  gslam::RunResult play(const std::function<void(const gslam::RunResult&)>& on_played = nullptr);
+
+  /// Makes play() end after the frame in work, also if it has not begun. By any thread.
+  void stop();
 
  private:
-  void makeSlam(gslam::Plugins& plugins, const Options& options);
+  void makeSlam(const Options& options);
+  void makeIsolatedSlam(const Options& options);
+  void checkSensors(const gslam::SlamFactory& factory) const;
 
-  gslam::PlayOptions play_;
-  std::string given_;
-  std::unique_ptr<gslam::Plugins> plugins_;
+  const gslam::PlayOptions play_;
+  gslam::Svar protocol_;
+  gslam::Plugins plugins_;
   std::unique_ptr<gslam::Dataset> dataset_;
-  std::string slam_name_;
+  gslam::SlamFactory factory_;
   gslam::Svar parameters_;
   std::unique_ptr<gslam::Slam> slam_;
+  const gslam::Messenger messenger_;
+  std::unique_ptr<gslam::Player> player_;
 };
 
 /// The exit status that a run ends with.

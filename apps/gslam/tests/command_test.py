@@ -71,6 +71,18 @@ class WrongUse(Folder):
         self.check(gslam("info", "a", "b"), 2, err="'b'")
         self.check(gslam("datasets", "a"), 2, err="'a'")
 
+    def test_options_are_named(self):
+        run = ["play", "carousel", "-s", "dead_reckoning"]
+        self.check(gslam(*run, "--param.gravty", 1), 2, err="--param.gravty")
+        self.check(gslam(*run, "--param.gravity", "nan"), 2, err="--param.gravity")
+        self.check(gslam(*run, "--param", 5), 2, err="--param")
+        self.check(gslam(*run, "--first", 9999), 2, err="--first")
+        self.check(gslam("run", "carousel", "-s", "dead_reckoning", "-o", ""), 2, err="--out")
+
+    def test_options_that_would_do_nothing(self):
+        self.check(gslam("play", "carousel", "--param.gravity", 1), 2, err="--slam")
+        self.check(gslam("play", "carousel", "--isolate"), 2, err="--slam")
+
     def test_values_out_of_range(self):
         self.check(gslam("play", "-d", "carousel", "--speed", "-1"), 2, err="speed")
         self.check(gslam("play", "-d", "carousel", "--pace", "fast"), 2, err="pace")
@@ -129,6 +141,7 @@ class Info(Folder):
         self.check(gslam("info", "carousel", "--dataset-param.radius", -3), 1, err="-3")
         self.check(gslam("info", "carousel", "--dataset-param.radius", "wide"), 1,
                    err="expected double")
+        self.check(gslam("info", "carousel:/nowhere"), 1, err="the name alone")
 
 
 def error_at_the_end(text):
@@ -149,6 +162,23 @@ class Run(Folder):
         report = json.loads((out / "run.json").read_text())
         self.assertEqual(report["slam"]["name"], "dead_reckoning")
         self.assertEqual(report["result"]["end"], "finished")
+
+    def test_results_of_two_runs_do_not_mix(self):
+        out = self.folder / "out"
+        run = ["run", "carousel", "-s", "dead_reckoning", "-o", out, "--count", 3]
+        self.check(gslam(*run))
+        (out / "map.gmap").write_text("of a run before")
+        self.check(gslam(*run))
+        self.assertEqual(sorted(path.name for path in out.iterdir()),
+                         ["run.json", "trajectory.txt"])
+
+    def test_the_protocol_says_what_ran(self):
+        out = self.folder / "out"
+        self.check(gslam("run", "carousel", "-s", "dead_reckoning", "-o", out, "--count", 3))
+        report = json.loads((out / "run.json").read_text())
+        self.assertEqual(report["dataset"]["parameters"]["radius"], 2.0)
+        self.assertEqual(report["slam"]["plugin"]["version"], "1.0.0")
+        self.assertEqual(report["count"], 3)
 
     def test_the_parameters_count(self):
         out = self.folder / "out"
@@ -227,14 +257,23 @@ class Interrupts(Folder):
             [GSLAM, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
             text=True, start_new_session=True)
         self.addCleanup(process.kill)
-        time.sleep(1)
         return process
+
+    @staticmethod
+    def wait_until(condition):
+        for _ in range(600):
+            if condition():
+                return
+            time.sleep(0.1)
+        raise TimeoutError("nothing happened for a minute")
 
     def test_ctrl_c_keeps_the_results(self):
         for options in [[], ["--isolate"]]:
             out = self.folder / f"out{len(options)}"
             process = self.start("run", "-d", "carousel", "-s", "dead_reckoning", "-o", out,
                                  "--pace", "real_time", *options)
+            self.wait_until(out.exists)  # from here on it plays, for 10 s
+            time.sleep(1)
             os.killpg(process.pid, signal.SIGINT)  # as a terminal does: the whole group
             stdout, stderr = process.communicate(timeout=30)
             self.assertEqual(process.returncode, 130, stdout + stderr)

@@ -182,17 +182,17 @@ TEST_F(Isolation, TellsTheStatusItEndedWith) {
 
 TEST_F(Isolation, EndsWhatHangs) {
   const auto start = std::chrono::steady_clock::now();
-  const IsolationFailure failure = failureOf("hang", milliseconds(700));
+  const IsolationFailure failure = failureOf("hang", milliseconds(3000));
   EXPECT_EQ(failure.kind, Kind::timeout);
-  EXPECT_EQ(failure.limit, milliseconds(700));
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(isSanitized() ? 20 : 5));
-  EXPECT_THAT(toText(failure), HasSubstr("within 700 ms"));
+  EXPECT_EQ(failure.limit, milliseconds(3000));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+  EXPECT_THAT(toText(failure), HasSubstr("within 3000 ms"));
 }
 
 TEST_F(Isolation, SurvivesGarbage) {
   EXPECT_EQ(failureOf("garbage").kind, Kind::garbage);
   // A terabyte is promised; what comes is an answer that is taken for a part of it.
-  EXPECT_EQ(failureOf("huge", milliseconds(700)).kind, Kind::timeout);
+  EXPECT_EQ(failureOf("huge", milliseconds(3000)).kind, Kind::timeout);
 }
 
 TEST_F(Isolation, SeesAClosedSocket) {
@@ -401,14 +401,14 @@ TEST_F(Isolation, EndsWhatHangsOrCrashesInTheDestructor) {
                     gslam::LogLevel::warning);
   for (const std::string how : {"hang", "abort"}) {
     IsolationOptions options = optionsOf();
-    options.end_limit = milliseconds(500);
+    options.end_limit = milliseconds(3000);
     SlamRun run(isolated(options), misbehaving(how, "destructor"));
     run.slam().feed(toyFrame(1));
   }
   gslam::setLogSink(nullptr);
   EXPECT_FALSE(hasChildren());
   ASSERT_EQ(records.size(), 2u);
-  EXPECT_THAT(records[0], HasSubstr("within 500 ms"));
+  EXPECT_THAT(records[0], HasSubstr("within 3000 ms"));
   EXPECT_THAT(records[1], HasSubstr("SIGABRT"));
 }
 

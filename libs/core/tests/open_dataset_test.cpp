@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gslam/core/open_dataset.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <fstream>
@@ -79,6 +80,21 @@ TEST_F(OpenDataset, ByNameOrUrl) {
   EXPECT_EQ(open("one"), "one one 20");
   EXPECT_EQ(open("one://room?seed=1"), "one one://room?seed=1 20");
   EXPECT_EQ(open("one", Svar::object({{"rate", 5}})), "one one 5");
+}
+
+TEST_F(OpenDataset, AFileWithTheNameOfAKindDoesNotHideIt) {
+  const std::string path = file("one");
+  ASSERT_EQ(chdir(testing::TempDir().c_str()), 0);
+  EXPECT_EQ(open("one"), "one one 20");
+  std::remove(path.c_str());
+}
+
+TEST_F(OpenDataset, AFactoryThatOpensNoneIsAnError) {
+  DatasetFactory factory;
+  factory.name = "none";
+  factory.open = [](const std::string&, const Svar&) { return std::unique_ptr<gslam::Dataset>(); };
+  plugins_.add(factory);
+  EXPECT_THAT(refusalOf("none"), testing::HasSubstr("opened none"));
 }
 
 TEST_F(OpenDataset, SaysWhatIsWrong) {

@@ -243,6 +243,50 @@ TEST(Player, GivesUpADatasetThatFailsForEver) {
   EXPECT_THAT(report.failure, testing::HasSubstr("4.png: is truncated"));
 }
 
+TEST(Player, BeginsAgainAtTheFirstFrame) {
+  const auto dataset = scripted::dataset(10);
+  Player player(*dataset, Messenger());
+  PlayOptions part;
+  part.first = 3;
+  part.count = 4;
+  EXPECT_EQ(player.play(part).played, 4U);
+  EXPECT_EQ(player.play().played, 10U);
+  EXPECT_EQ(player.play().played, 10U);
+}
+
+TEST(Player, SaysAtWhichFrameTheSystemFailedInRealTime) {
+  const auto dataset = scripted::dataset(20);
+  scripted::Slam slam = configured();
+  std::uint64_t failed_at = 0;
+  slam.on_frame = [&](const Frame& frame) {
+    if (frame.id < 2) return;
+    failed_at = frame.id;
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    throw std::domain_error("no features");
+  };
+  PlayOptions options;
+  options.pace = Pace::real_time;
+  const PlayReport report = Player(*dataset, Messenger()).play(slam, options);
+  EXPECT_EQ(report.end, PlayEnd::failed);
+  EXPECT_EQ(report.last_frame, failed_at);
+  EXPECT_EQ(slam.frames.size() + 1 + report.dropped, report.played) << "each is accounted for";
+}
+
+TEST(Player, SurvivesStampsThatMakeNoSense) {
+  std::vector<std::shared_ptr<const Frame>> frames;
+  for (const std::int64_t stamp : {INT64_MAX, INT64_MIN, INT64_MIN + 1}) {
+    const auto frame = std::make_shared<Frame>();
+    frame->id = frames.size();
+    frame->stamp = stamp;
+    frames.push_back(frame);
+  }
+  gslam::MemoryDataset dataset(gslam::DatasetInfo(), std::move(frames));
+  PlayOptions options;
+  options.pace = Pace::real_time;
+  options.speed = 1e-3;
+  EXPECT_EQ(Player(dataset, Messenger()).play(options).played, 3U);
+}
+
 TEST(Player, RefusesImpossibleSpeeds) {
   const auto dataset = scripted::dataset(2);
   Player player(*dataset, Messenger());

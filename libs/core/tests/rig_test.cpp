@@ -41,16 +41,16 @@ SensorNeeds needs(int cameras, bool depth = false, bool imu = false, bool gnss =
 }
 
 TEST(Rig, NeedsAsText) {
-  EXPECT_EQ(toText(SensorNeeds()), "1 camera");
+  EXPECT_EQ(toText(SensorNeeds()), "1 calibrated camera");
   EXPECT_EQ(toText(needs(2, false, true)), "2 cameras, an IMU");
-  EXPECT_EQ(toText(needs(1, true, false, true)), "1 camera, depth, GNSS");
+  EXPECT_EQ(toText(needs(1, true, false, true)), "1 calibrated camera, depth, GNSS");
   EXPECT_EQ(toText(needs(0)), "nothing");
 }
 
 TEST(Rig, NothingIsMissingWhereAllIsThere) {
   SensorRig rig;
   rig.cameras = {camera("left", ImageKind::grey), camera("right", ImageKind::bgr),
-                 camera("depth", ImageKind::depth, false)};
+                 camera("depth", ImageKind::depth)};
   rig.has_imu = rig.has_gnss = true;
   EXPECT_EQ(missingSensors(needs(2, true, true, true), rig), "");
   EXPECT_EQ(missingSensors(needs(0), SensorRig()), "");
@@ -73,6 +73,13 @@ TEST(Rig, CamerasThatAreUsedMustBeCalibrated) {
   EXPECT_EQ(missingSensors(needs(1), rig), "");
   EXPECT_EQ(missingSensors(needs(2), rig), "the calibration of camera 'right'");
   EXPECT_EQ(missingSensors(needs(2, false, false, false, false), rig), "");
+  EXPECT_EQ(missingSensors(needs(1, true), rig), "the calibration of camera 'depth'");
+}
+
+TEST(Rig, AnyCameraThatIsCalibratedWillDo) {
+  SensorRig rig;
+  rig.cameras = {camera("left", ImageKind::grey, false), camera("right", ImageKind::grey)};
+  EXPECT_EQ(missingSensors(needs(1), rig), "");
 }
 
 TEST(Rig, KindsShowLightOrDoNot) {

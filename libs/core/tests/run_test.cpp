@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <gslam/core/registry.h>
 #include <gslam/core/run.h>
 
 #include <cmath>
@@ -100,11 +101,75 @@ TEST(Run, AFailureAtTheEndIsAFailure) {
   EXPECT_EQ(result.trajectory.size(), 4U);
 }
 
-TEST(Run, ThrowsWhatConfigureThrows) {
+TEST(Run, AFailureToConfigureIsAFailure) {
   const auto dataset = scripted::dataset(4);
   scripted::Slam slam;
   slam.on_configure = [](const gslam::SlamSetup&) { throw gslam::Error("no vocabulary"); };
-  EXPECT_THROW(run(slam, *dataset), gslam::Error);
+  const RunResult result = run(slam, *dataset);
+  EXPECT_EQ(result.play.end, PlayEnd::failed);
+  EXPECT_EQ(result.play.failure, "no vocabulary");
+  EXPECT_EQ(result.play.played, 0U);
+  EXPECT_THAT(slam.calls, testing::ElementsAre("configure"));
+}
+
+TEST(Run, WhatIsThrownMayBeAnything) {
+  for (const std::string where : {"configure", "feed", "finish"}) {
+    const auto dataset = scripted::dataset(4);
+    scripted::Slam slam;
+    if (where == "configure") slam.on_configure = [](const gslam::SlamSetup&) { throw 7; };
+    if (where == "feed") slam.on_frame = [](const Frame&) { throw 7; };
+    if (where == "finish") slam.on_finish = [] { throw 7; };
+    const RunResult result = run(slam, *dataset);
+    EXPECT_EQ(result.play.end, PlayEnd::failed) << where;
+    EXPECT_THAT(result.play.failure, testing::HasSubstr("no std::exception")) << where;
+  }
+}
+
+TEST(Run, PosesCanBeKeptBeforeTheEnd) {
+  const auto dataset = scripted::dataset(4);
+  scripted::Slam slam;
+  const Messenger messenger;
+  Player player(*dataset, messenger);
+  gslam::RunSetup setup;
+  std::size_t poses = 0;
+  setup.on_played = [&](const RunResult& result) {
+    poses = result.trajectory.size();
+    EXPECT_THAT(slam.calls, testing::ElementsAre("configure"));
+  };
+  gslam::runSlam(slam, player, *dataset, setup, messenger);
+  EXPECT_EQ(poses, 4U);
+}
+
+TEST(Run, ADatasetCanBePlayedAgain) {
+  const auto dataset = scripted::dataset(4);
+  for (int i = 0; i < 2; ++i) {
+    scripted::Slam slam;
+    EXPECT_EQ(run(slam, *dataset).trajectory.size(), 4U);
+  }
+}
+
+TEST(Registry, RefusesWhatCannotBeUsed) {
+  gslam::Registry registry;
+  gslam::SlamFactory factory;
+  factory.make = [] { return std::unique_ptr<gslam::Slam>(new scripted::Slam); };
+  for (const std::string name : {"", "my SLAM", "orb-slam", "a/b", "caf\xC3\xA9"}) {
+    factory.name = name;
+    EXPECT_THROW(registry.add(factory), gslam::ArgumentError) << name;
+  }
+  factory.name = "ORB_3";
+  registry.add(factory);
+  EXPECT_THROW(registry.add(factory), gslam::ArgumentError) << "twice";
+  factory.name = "other";
+  factory.make = nullptr;
+  EXPECT_THROW(registry.add(factory), gslam::ArgumentError);
+  EXPECT_EQ(registry.slams().size(), 1U);
+}
+
+TEST(Registry, AFactoryThatMakesNoneIsAnError) {
+  gslam::SlamFactory factory;
+  factory.name = "none";
+  factory.make = [] { return std::unique_ptr<gslam::Slam>(); };
+  EXPECT_THROW(gslam::makeSlam(factory), gslam::Error);
 }
 
 TEST(Recorder, TheLastWordOnAFrameCounts) {
@@ -172,22 +237,6 @@ TEST(MemoryDataset, SeeksAndEnds) {
   dataset->seek(0);
   EXPECT_EQ(dataset->next()->id, 0U);
   EXPECT_THROW(dataset->seek(4), gslam::ArgumentError);
-}
-
-TEST(Rig, SaysWhatIsMissing) {
-  gslam::SensorRig rig;
-  gslam::SensorNeeds needs;
-  EXPECT_EQ(gslam::missingSensors(needs, rig), "1 camera (it has 0)");
-  rig.cameras.resize(1);
-  rig.cameras[0].name = "left";
-  EXPECT_EQ(gslam::missingSensors(needs, rig), "the calibration of camera 'left'");
-  needs.calibration = false;
-  EXPECT_EQ(gslam::missingSensors(needs, rig), "");
-  rig.cameras[0].kind = gslam::ImageKind::depth;
-  needs.depth = needs.imu = needs.gnss = true;
-  needs.cameras = 2;
-  EXPECT_EQ(gslam::missingSensors(needs, rig), "2 cameras (it has 0), an IMU, GNSS positions");
-  EXPECT_EQ(gslam::toText(needs), "2 cameras, depth, an IMU, GNSS");
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ struct CameraImage {
 struct Frame {
   std::uint64_t id = 0;             ///< counts up by one through a dataset
   std::int64_t stamp = 0;           ///< nanoseconds: the middle of the exposure where it is known
-  std::vector<CameraImage> images;  ///< in the order of DatasetInfo::cameras
+  std::vector<CameraImage> images;  ///< in the order of SensorRig::cameras
   std::vector<ImuSample> imu;       ///< after the frame before, up to this stamp, by stamp
   ImuCalibration imu_calibration;   ///< where `imu` was measured
   std::vector<GnssSample> gnss;     ///< after the frame before, up to this stamp, by stamp

@@ -61,7 +61,7 @@ struct IsolationFailure {
     timeout,        ///< it gave no answer in time, and was killed
     out_of_memory,  ///< it was killed, while the system ran out of memory
     garbage,        ///< it sent what is no answer, and was killed
-    lost            ///< it is gone, and the system does not tell how
+    lost            ///< its end of the connection is closed, and how it ended is not known
   };
   Kind kind = Kind::lost;              ///< what it was
   int number = 0;                      ///< signal or status
@@ -104,7 +104,7 @@ class GSLAM_PUBLIC IsolationError : public Error {
 /// thread of the call during which they arrive: those that the system publishes between two calls
 /// come with the next. Other topics, such as "map", are not forwarded, nor do subscriptions and
 /// services reach the child; ask map(). What it logs ends in this program's log, at the level that
-/// held at configure(); what it prints to stderr is printed; its stdin is empty.
+/// held at configure(); what it prints goes to stderr; its stdin is empty.
 ///
 /// **Failure**: where the process ends or is late, the call throws an IsolationError, and so do all
 /// later calls. The process and all that it started are gone then; it leaves nothing behind, and
@@ -136,6 +136,9 @@ class IsolatedSlam : public Slam {
   /// As Slam. @throws also IsolationError
   void finish() override;
 
+  /// What the child knows of the system: name, description, parameters, needs. Its plugin is not
+  /// loaded in this process. `make` makes another isolated one.
+  const SlamFactory& factory() const noexcept { return factory_; }
   /// How it came to its end; null while it runs.
   const IsolationFailure* failure() const noexcept { return failure_.get(); }
   /// Number of the process; 0 where there is none any more.
@@ -164,6 +167,7 @@ class IsolatedSlam : public Slam {
   std::uint64_t killed_before_ = 0;  // of the whole system, for lack of memory
 #endif
   IsolationOptions options_;
+  SlamFactory factory_;
   Publisher<TrackedPose> pose_;
   bool has_pose_ = false;
   bool has_frame_ = false;

@@ -45,6 +45,12 @@ inline int runIsolationWorker(int argc, const char* const* argv,
 
 namespace detail {
 
+// Ends this process and, where it leads a group as IsolatedSlam has it, all that it started.
+[[noreturn]] inline void endAll() {
+  if (getpgrp() == getpid()) kill(0, SIGKILL);
+  std::_Exit(1);
+}
+
 // Ends the process when the host is gone, even where the SLAM system hangs. (The parent-death
 // signal of Linux would not do: it comes when the thread ends that started this process.)
 class HangUpWatch {
@@ -55,7 +61,7 @@ class HangUpWatch {
     const int stop = ends.second.get();
     stopped_ = std::move(ends.second);
     thread_ = std::thread([socket, stop] {
-      if (waitForHangUp(socket, stop)) std::_Exit(1);
+      if (waitForHangUp(socket, stop)) endAll();
     });
   }
   HangUpWatch(const HangUpWatch&) = delete;

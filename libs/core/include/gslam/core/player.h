@@ -4,10 +4,12 @@
 #include <gslam/base/error.h>
 #include <gslam/base/log.h>
 #include <gslam/core/dataset.h>
+#include <gslam/core/detail/exception_text.h>
 #include <gslam/core/slam.h>
 #include <gslam/core/slam_thread.h>
 #include <gslam/messenger/messenger.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
@@ -33,9 +35,9 @@ enum class Pace {
 
 /// What to play, and how fast.
 struct PlayOptions {
-  Pace pace = Pace::every_frame;                                ///< when the next frame goes out
-  double speed = 1;                                             ///< of the clock, in real time
-  std::size_t first = 0;                                        ///< index of the first frame
+  Pace pace = Pace::every_frame;  ///< when the next frame goes out
+  double speed = 1;               ///< of the clock, in real time
+  std::size_t first = 0;          ///< index of the first frame; a live dataset begins where it is
   std::size_t count = std::numeric_limits<std::size_t>::max();  ///< most frames that are played
 };
 
@@ -43,7 +45,8 @@ struct PlayOptions {
 enum class PlayEnd {
   finished,  ///< at the last frame
   stopped,   ///< by Player::stop()
-  failed     ///< by an exception of the SLAM system, or 100 frames in a row that cannot be read
+  failed     ///< by an exception of the SLAM system or the dataset, or because 100 frames in a row
+             ///< cannot be read
 };
 
 /// What came of playing.
@@ -53,7 +56,7 @@ struct PlayReport {
   std::uint64_t played = 0;         ///< frames that were read and published
   std::uint64_t dropped = 0;        ///< of these, those the SLAM system was too late for
   std::uint64_t unreadable = 0;     ///< frames that could not be read
-  std::uint64_t last_frame = 0;     ///< id of the last one that was played
+  std::uint64_t last_frame = 0;     ///< id of the last one that was played, or that it failed at
   double seconds = 0;               ///< it took, without pauses
 };
 
@@ -68,7 +71,7 @@ struct RunStatus {
 
 /// Plays a dataset: hands each frame to a SLAM system, and publishes it for everyone else.
 ///
-/// Topics, each only while somebody listens or not at no cost:
+/// Topics, which cost next to nothing while nobody listens:
 ///
 ///     /sensor/frame        Frame
 ///     /sensor/imu          ImuSample, one by one
@@ -126,7 +129,7 @@ class Player {
       throw ArgumentError("speed",
                           "is " + std::to_string(options.speed) + ", expected a factor above 0");
     }
-    if (options.first > 0) dataset_.seek(options.first);
+    if (options.first > 0 || !dataset_.info().is_live) dataset_.seek(options.first);
     PlayReport report;
     const Clock::time_point begin = Clock::now();
     paused_for_ = Clock::duration::zero();
@@ -134,12 +137,10 @@ class Player {
     try {
       playFrames(slam, options, report);
       if (thread != nullptr) thread->waitUntilIdle();
-    } catch (const std::exception& error) {
-      report.end = PlayEnd::failed;
-      report.failure = error.what();
     } catch (...) {
       report.end = PlayEnd::failed;
-      report.failure = "an exception that is no std::exception";
+      report.failure = detail::exceptionText();
+      if (thread != nullptr) report.last_frame = thread->lastFrame();
     }
     if (thread != nullptr) report.dropped = thread->dropped();
     report.seconds = std::chrono::duration<double>(Clock::now() - begin - paused_for_).count();
@@ -196,7 +197,7 @@ class Player {
     std::unique_lock<std::mutex> lock(mutex_);
     while (true) {
       // Far stamps come from broken files; a wait of a year is as good as any.
-      const double bounded = seconds < 3e7 ? seconds : 3e7;
+      const double bounded = std::max(-3e7, std::min(3e7, seconds));
       const Clock::time_point due =
           first_time_ + paused_for_ +
           std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(bounded));

@@ -23,6 +23,10 @@
 namespace gslam {
 inline namespace v1 {
 
+namespace detail {
+struct PluginInFile;
+}
+
 /// A plugin that was loaded.
 struct Plugin {
   std::string name;         ///< such as "orb"
@@ -74,8 +78,8 @@ class Plugins {
   ///   Error that says where a name was looked for
   const Plugin& load(const std::string& name_or_path);
 
-  /// Loads all that is in the folders. A shared library beside the program that is no plugin is
-  /// passed over.
+  /// Loads all that is in the folders. A shared library that is no plugin and has no
+  /// "gslam_" in its name is passed over, and so is a plugin of which an earlier folder has one.
   /// @return those that were refused; also refused() until the next call
   const std::vector<RefusedPlugin>& loadAll();
 
@@ -125,6 +129,7 @@ class Plugins {
   const Plugin& addPlugin(const PluginEntry& entry, const std::string& path, const Loaded& more);
   const Plugin* findLoaded(const detail::FileIdentity& file) const;
   std::string findFile(const std::string& name) const;
+  bool isNoneOrShadowed(const std::string& file, const detail::PluginInFile& inside) const;
   void loadFolder(const std::string& folder);
   template <class Factory>
   void mergeKind(Registry& all, const Plugin& plugin) const;

@@ -20,6 +20,11 @@
 namespace gslam {
 inline namespace v1 {
 
+namespace detail {
+constexpr const char* kNameCharacters =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
+}  // namespace detail
+
 /// A kind of dataset, and how to open one.
 struct DatasetFactory {
   std::string name;         ///< such as "euroc"
@@ -49,13 +54,21 @@ struct ApplicationFactory {
   std::function<std::unique_ptr<Application>()> make;  ///< one that does not run yet
 };
 
+/// A SLAM system that a factory makes.
+/// @throws what the factory throws; Error when it makes none
+inline std::unique_ptr<Slam> makeSlam(const SlamFactory& factory) {
+  std::unique_ptr<Slam> slam = factory.make();
+  if (slam == nullptr) throw Error("the factory of SLAM system '" + factory.name + "' made none");
+  return slam;
+}
+
 /// The factories that a plugin adds when it is loaded. One thread at a time may write it.
 class Registry {
  public:
   /// @{
   /// Adds a factory.
-  /// @throws ArgumentError when its name is empty or taken by one of its kind, or what makes it is
-  ///   missing
+  /// @throws ArgumentError when its name is empty, has other characters than letters, digits and _
+  ///   (it is part of topics), or is taken by one of its kind; when what makes it is missing
   void add(DatasetFactory factory) {
     check(datasets_, factory, factory.open != nullptr, "dataset");
     datasets_.push_back(std::move(factory));
@@ -82,6 +95,10 @@ class Registry {
   static void check(const std::vector<Factory>& known, const Factory& added, bool is_whole,
                     const std::string& kind) {
     if (added.name.empty()) throw ArgumentError("name", "of a " + kind + " is empty");
+    if (added.name.find_first_not_of(detail::kNameCharacters) != std::string::npos) {
+      throw ArgumentError("'" + added.name + "'",
+                          "is no name for a " + kind + ", expected letters, digits and _");
+    }
     if (!is_whole) throw ArgumentError(added.name, "has no function that makes the " + kind);
     for (const Factory& other : known) {
       if (other.name == added.name) {

@@ -59,13 +59,38 @@ inline std::string countOf(int count, const std::string& thing) {
   return count == 1 ? "1 " + thing : std::to_string(count) + " " + thing + "s";
 }
 
+// Cameras of some kinds.
+struct CameraCount {
+  int all = 0;
+  int calibrated = 0;
+  std::string uncalibrated;  // their names
+};
+
+template <class IsCounted>
+CameraCount countCameras(const SensorRig& rig, const IsCounted& is_counted) {
+  CameraCount count;
+  for (const CameraSensor& sensor : rig.cameras) {
+    if (!is_counted(sensor.kind)) continue;
+    ++count.all;
+    if (sensor.camera.isValid()) {
+      ++count.calibrated;
+    } else {
+      addNeed(count.uncalibrated, "camera '" + sensor.name + "'");
+    }
+  }
+  return count;
+}
+
 }  // namespace detail
 
-/// For people: "2 cameras, an IMU"; "nothing" for no needs.
+/// For people: "2 calibrated cameras, an IMU"; "nothing" for no needs.
 inline std::string toText(const SensorNeeds& needs) {
+  const std::string calibrated = needs.calibration ? "calibrated " : "";
   std::string text;
-  if (needs.cameras > 0) detail::addNeed(text, detail::countOf(needs.cameras, "camera"));
-  if (needs.depth) detail::addNeed(text, "depth");
+  if (needs.cameras > 0) {
+    detail::addNeed(text, detail::countOf(needs.cameras, calibrated + "camera"));
+  }
+  if (needs.depth) detail::addNeed(text, calibrated + "depth");
   if (needs.imu) detail::addNeed(text, "an IMU");
   if (needs.gnss) detail::addNeed(text, "GNSS");
   return text.empty() ? "nothing" : text;
@@ -74,25 +99,24 @@ inline std::string toText(const SensorNeeds& needs) {
 /// What a rig lacks, as the end of the sentence "the dataset lacks ..."; empty where nothing is
 /// missing.
 inline std::string missingSensors(const SensorNeeds& needs, const SensorRig& rig) {
-  int cameras = 0;
-  bool has_depth = false;
-  std::string missing, not_calibrated;
-  for (const CameraSensor& sensor : rig.cameras) {
-    has_depth = has_depth || sensor.kind == ImageKind::depth;
-    if (!isPhotographic(sensor.kind)) continue;
-    ++cameras;
-    if (!sensor.camera.isValid() && cameras <= needs.cameras) {
-      detail::addNeed(not_calibrated, "the calibration of camera '" + sensor.name + "'");
-    }
-  }
-  if (cameras < needs.cameras) {
+  const detail::CameraCount cameras = detail::countCameras(rig, isPhotographic);
+  const detail::CameraCount depth =
+      detail::countCameras(rig, [](ImageKind kind) { return kind == ImageKind::depth; });
+  std::string missing;
+  if (cameras.all < needs.cameras) {
     detail::addNeed(missing, detail::countOf(needs.cameras, "camera") + " (it has " +
-                                 std::to_string(cameras) + ")");
+                                 std::to_string(cameras.all) + ")");
   }
-  if (needs.depth && !has_depth) detail::addNeed(missing, "depth images");
+  if (needs.depth && depth.all == 0) detail::addNeed(missing, "depth images");
   if (needs.imu && !rig.has_imu) detail::addNeed(missing, "an IMU");
   if (needs.gnss && !rig.has_gnss) detail::addNeed(missing, "GNSS positions");
-  if (needs.calibration && !not_calibrated.empty()) detail::addNeed(missing, not_calibrated);
+  if (!needs.calibration) return missing;
+  if (cameras.all >= needs.cameras && cameras.calibrated < needs.cameras) {
+    detail::addNeed(missing, "the calibration of " + cameras.uncalibrated);
+  }
+  if (needs.depth && depth.all > 0 && depth.calibrated == 0) {
+    detail::addNeed(missing, "the calibration of " + depth.uncalibrated);
+  }
   return missing;
 }
 

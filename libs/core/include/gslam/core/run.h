@@ -3,6 +3,7 @@
 
 #include <gslam/base/error.h>
 #include <gslam/core/dataset.h>
+#include <gslam/core/detail/exception_text.h>
 #include <gslam/core/player.h>
 #include <gslam/core/recorder.h>
 #include <gslam/core/slam.h>
@@ -10,7 +11,7 @@
 #include <gslam/messenger/messenger.h>
 #include <gslam/svar/svar.h>
 
-#include <exception>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,13 +22,6 @@
 namespace gslam {
 inline namespace v1 {
 
-/// What a run needs to know beyond the two that take part.
-struct RunSetup {
-  std::string name = "slam";  ///< of the SLAM system, the first part of its topics
-  Svar parameters;            ///< for SlamSetup::parameters
-  PlayOptions play;           ///< what to play, and how fast
-};
-
 /// What came of a run. A run that failed has what came before.
 struct RunResult {
   PlayReport play;                 ///< how it ended
@@ -37,33 +31,66 @@ struct RunResult {
   std::shared_ptr<const Map> map;  ///< at the end; null where there is none
 };
 
+/// What a run needs to know beyond the two that take part.
+struct RunSetup {
+  std::string name = "slam";  ///< of the SLAM system, the first part of its topics
+  Svar parameters;            ///< for SlamSetup::parameters
+  PlayOptions play;           ///< what to play, and how fast
+  /// Is called with the poses so far when the last frame was played, before finish(), which may
+  /// take long. May be empty.
+  std::function<void(const RunResult&)> on_played;
+};
+
+namespace detail {
+
+// Whether the SLAM system did it; else the report says what it threw.
+template <class Call>
+bool attempt(PlayReport& report, const Call& call) {
+  try {
+    call();
+    return true;
+  } catch (...) {
+    report.end = PlayEnd::failed;
+    report.failure = exceptionText();
+    return false;
+  }
+}
+
+inline void takePoses(const Recorder& recorder, RunResult& result) {
+  result.poses = recorder.poses();
+  result.trajectory = recorder.trajectory();
+  result.invalid_poses = recorder.invalidCount();
+}
+
+}  // namespace detail
+
 /// Configures a SLAM system, plays a dataset to it, finishes it, and keeps what it says.
 /// @param slam       not configured yet
 /// @param player     of the dataset, which another thread may stop
 /// @param dataset    that the player plays
 /// @param setup      the rest
 /// @param messenger  that poses and maps are published on, as SlamTopics does
-/// @throws what configure() of the SLAM system throws, and as Player::play(). What it throws later
-///   is a result
+/// @throws as Player::play(), and what `on_played` throws. What the SLAM system throws is a result
 inline RunResult runSlam(Slam& slam, Player& player, const Dataset& dataset, const RunSetup& setup,
                          const Messenger& messenger) {
   const Recorder recorder(setup.name, messenger);
   const SlamTopics topics(setup.name, messenger);
-  slam.configure(SlamSetup{setup.parameters, dataset.info().sensors, topics.inside()});
   RunResult result;
-  result.play = player.play(slam, setup.play);
+  const bool is_configured = detail::attempt(result.play, [&] {
+    slam.configure(SlamSetup{setup.parameters, dataset.info().sensors, topics.inside()});
+  });
+  if (is_configured) {
+    result.play = player.play(slam, setup.play);
+    detail::takePoses(recorder, result);
+    if (setup.on_played) setup.on_played(result);
+  }
   if (result.play.end != PlayEnd::failed) {
-    try {
+    detail::attempt(result.play, [&] {
       slam.finish();
       result.map = slam.map();
-    } catch (const std::exception& error) {
-      result.play.end = PlayEnd::failed;
-      result.play.failure = error.what();
-    }
+    });
   }
-  result.poses = recorder.poses();
-  result.trajectory = recorder.trajectory();
-  result.invalid_poses = recorder.invalidCount();
+  detail::takePoses(recorder, result);
   return result;
 }
 

@@ -111,7 +111,13 @@ class SlamThread : public Slam {
     return frames_.empty() && !is_busy_;
   }
 
-  /// Frames that were dropped.
+  /// Id of the last frame that the system was given.
+  std::uint64_t lastFrame() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return last_frame_;
+  }
+
+  /// Frames that were dropped, also because the system failed before them.
   std::uint64_t dropped() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return dropped_;
@@ -139,6 +145,7 @@ class SlamThread : public Slam {
       if (!frames_.empty()) {
         const std::shared_ptr<const Frame> frame = std::move(frames_.front());
         frames_.pop_front();
+        last_frame_ = frame->id;
         perform(lock, [&] { slam_->feed(frame); });
       } else if (call_ != nullptr) {
         perform(lock, *call_);
@@ -165,7 +172,9 @@ class SlamThread : public Slam {
     lock.lock();
     is_busy_ = false;
     error_ = error;
-    if (error_ != nullptr) frames_.clear();
+    if (error_ == nullptr) return;
+    dropped_ += frames_.size();
+    frames_.clear();
   }
 
   const std::shared_ptr<Slam> slam_;
@@ -178,6 +187,7 @@ class SlamThread : public Slam {
   const std::function<void()>* call_ = nullptr;
   std::exception_ptr error_;
   std::uint64_t dropped_ = 0;
+  std::uint64_t last_frame_ = 0;
   bool is_busy_ = false;
   bool is_ending_ = false;
 

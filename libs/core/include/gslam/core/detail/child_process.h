@@ -185,7 +185,7 @@ class SpawnPlan {
   }
 
   // A group of its own: Ctrl-C is for the parent, and whatever it starts ends with it. No signal is
-  // blocked or ignored, and there is no input.
+  // blocked or ignored, there is no input, and what it prints goes to stderr.
   pid_t spawn(const std::string& program, const FileHandle& socket, const FileHandle& memory,
               std::vector<std::string> arguments, std::vector<std::string> environment) {
     sigset_t none, usual;
@@ -200,6 +200,7 @@ class SpawnPlan {
     posix_spawnattr_setflags(
         &attributes_, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
     posix_spawn_file_actions_addopen(&files_, 0, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&files_, 2, 1);  // stdout is for results of this program
     posix_spawn_file_actions_adddup2(&files_, socket.get(), kChildSocket);
     posix_spawn_file_actions_adddup2(&files_, memory.get(), kChildMemory);
     pid_t child = -1;

@@ -129,7 +129,16 @@ inline void IsolatedSlam::greet() {
   for (const std::string& folder : options_.folders) question.text(folder);
   question.raw(options_.most_memory);
   question.raw(std::int32_t(detail::logState().least.load(std::memory_order_relaxed)));
-  call(detail::MessageKind::create, question, options_.configure_limit, "make");
+  const std::vector<char> made =
+      call(detail::MessageKind::create, question, options_.configure_limit, "make");
+  try {
+    detail::MessageReader in(made);
+    factory_ = detail::readFactory(in);
+  } catch (const Error&) {  // it is no such answer
+    fail(IsolationFailure::Kind::garbage, options_.configure_limit, "make");
+  }
+  const IsolationOptions options = options_;
+  factory_.make = [options] { return std::unique_ptr<Slam>(new IsolatedSlam(options)); };
 }
 
 inline IsolatedSlam::~IsolatedSlam() {
@@ -141,8 +150,10 @@ inline void IsolatedSlam::endQuietly() noexcept {
   try {
     const detail::Deadline deadline = detail::deadlineAfter(options_.end_limit);
     sendMessage(socket_.get(), detail::MessageKind::quit, {}, &child_, deadline);
-    detail::Message ignored;  // what it says on its way out
-    while (receiveMessage(socket_.get(), ignored, &child_, deadline) == detail::Received::done) {
+    detail::Message last;  // what it says on its way out
+    while (receiveMessage(socket_.get(), last, &child_, deadline) == detail::Received::done) {
+      detail::MessageReader in(last.bytes);
+      if (last.kind == detail::MessageKind::log) detail::logFromChild(in);
     }
     IsolationFailure failure;
     failure.call = "end";

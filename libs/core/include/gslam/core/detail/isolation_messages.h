@@ -3,6 +3,7 @@
 #define GSLAM_CORE_DETAIL_ISOLATION_MESSAGES_H
 
 #include <gslam/core/build_facts.h>
+#include <gslam/core/detail/exception_text.h>
 #include <gslam/core/detail/message_bytes.h>
 #include <gslam/core/frame.h>
 #include <gslam/core/registry.h>
@@ -84,20 +85,16 @@ inline void writeFactory(MessageWriter& out, const SlamFactory& factory) {
   writeBoolean(out, factory.needs.calibration);
 }
 
-inline bool readFlag(MessageReader& in) {
-  return in.number<std::uint8_t>() != 0;
-}
-
 inline SlamFactory readFactory(MessageReader& in) {
   SlamFactory factory;
   factory.name = in.text();
   factory.description = in.text();
   factory.parameters = parseJson(in.text(), "parameters");
   factory.needs.cameras = in.number<std::int32_t>();
-  factory.needs.depth = readFlag(in);
-  factory.needs.imu = readFlag(in);
-  factory.needs.gnss = readFlag(in);
-  factory.needs.calibration = readFlag(in);
+  factory.needs.depth = in.boolean();
+  factory.needs.imu = in.boolean();
+  factory.needs.gnss = in.boolean();
+  factory.needs.calibration = in.boolean();
   in.expectEnd();
   return factory;
 }
@@ -250,10 +247,8 @@ inline ThrownMessage currentException() {
     thrown.about = error.source();
     thrown.line = error.line();
     thrown.column = error.column();
-  } catch (const std::exception& error) {
-    thrown.what = error.what();
   } catch (...) {
-    thrown.what = "something that is no std::exception was thrown";
+    thrown.what = exceptionText();
   }
   return thrown;
 }

@@ -4,6 +4,7 @@
 
 #include <gslam/base/error.h>
 #include <gslam/base/log_hook.h>
+#include <gslam/core/detail/exception_text.h>
 #include <gslam/core/detail/plugin_file.h>
 #include <gslam/core/detail/shared_library.h>
 #include <gslam/core/plugins.h>
@@ -256,10 +257,8 @@ inline const Plugin& Plugins::addPlugin(const PluginEntry& entry, const std::str
   std::string problem;
   try {
     entry.add_factories(plugin.factories);
-  } catch (const std::exception& error) {
-    problem = error.what();
   } catch (...) {
-    problem = "something that is no std::exception";
+    problem = detail::exceptionText();
   }
   if (!problem.empty()) {
     throw FileError(place,
@@ -331,19 +330,26 @@ inline const std::vector<RefusedPlugin>& Plugins::loadAll() {
   return refused_;
 }
 
+// A library that a plugin needs, or a plugin of which there is one in a folder before.
+inline bool Plugins::isNoneOrShadowed(const std::string& file,
+                                      const detail::PluginInFile& inside) const {
+  const bool claims_to_be_one = file.find("gslam_") != std::string::npos;
+  if (inside.is_library && !inside.problem.empty()) return !claims_to_be_one;
+  if (!inside.is_read) return false;
+  for (const Plugin& plugin : loaded_) {
+    if (plugin.name == detail::fixedText(inside.entry.name)) return true;
+  }
+  return false;
+}
+
 inline void Plugins::loadFolder(const std::string& folder) {
-  const std::string program = detail::programPath();
-  const bool is_beside = !program.empty() && folder == detail::parentFolderOf(program);
   for (const std::string& name : detail::namesIn(folder)) {
     if (!detail::isLibraryName(name)) continue;
     const std::string path = folder + "/" + name;
     try {
       detail::FileIdentity file;
       if (detail::fileKind(path, &file) == detail::FileKind::file && findLoaded(file)) continue;
-      if (is_beside) {
-        const detail::PluginInFile inside = detail::readPluginFile(path);
-        if (inside.is_library && !inside.problem.empty()) continue;
-      }
+      if (isNoneOrShadowed(name, detail::readPluginFile(path))) continue;
       loadFile(path);
     } catch (const FileError& error) {
       const std::string start = path + ": ";
@@ -449,10 +455,11 @@ inline DatasetFactory Plugins::datasetFor(const std::string& path) {
   for (const DatasetFactory& one : registry_.datasets()) {
     try {
       if (one.recognizes && one.recognizes(path)) names.push_back(one.name);
-    } catch (const std::exception& error) {
+    } catch (...) {
+      const std::string problem = detail::exceptionText();
       detail::logParts(LogLevel::warning, __FILE__, __LINE__,
                        {"dataset ", one.name.c_str(), " cannot tell whether it knows ",
-                        path.c_str(), ": ", error.what()});
+                        path.c_str(), ": ", problem.c_str()});
     }
   }
   if (names.size() == 1) return *detail::findFactory<DatasetFactory>(registry_, names.front());
