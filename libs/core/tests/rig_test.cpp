@@ -42,8 +42,8 @@ SensorNeeds needs(int cameras, bool depth = false, bool imu = false, bool gnss =
 
 TEST(Rig, NeedsAsText) {
   EXPECT_EQ(toText(SensorNeeds()), "1 calibrated camera");
-  EXPECT_EQ(toText(needs(2, false, true)), "2 cameras, an IMU");
-  EXPECT_EQ(toText(needs(1, true, false, true)), "1 calibrated camera, depth, GNSS");
+  EXPECT_EQ(toText(needs(2, false, true)), "2 calibrated cameras, an IMU");
+  EXPECT_EQ(toText(needs(1, true, false, true)), "1 calibrated camera, calibrated depth, GNSS");
   EXPECT_EQ(toText(needs(0)), "nothing");
 }
 
