@@ -107,7 +107,7 @@ TEST(SyntheticNoise, OfTheInertialUnitIsAsStated) {
               6e-5);
   EXPECT_NEAR(momentsOf(accel_walk).deviation, std::sqrt(19 * square(3e-3) + 2 * square(2e-3)),
               4e-3);
-  const gslam::ImuCalibration& told = gslam::openSynthetic(options)->info().sensors.imu;
+  const gslam::ImuCalibration told = gslam::openSynthetic(options)->info().sensors.imu;
   EXPECT_EQ(told.gyro_noise, 1.7e-4);
   EXPECT_EQ(told.rate, 200);
 }

@@ -35,7 +35,7 @@ struct Plaster {
   float operator()(float x, float y) const {
     const float stain = brush.soft(x, y, 0.6F);
     return 0.66F + 0.16F * stain + 0.16F * brush.grain(x, y, 0.011F) +
-           0.3F * std::min(0.0F, brush.blobs(x, y, 0.16F, 6, true)) +
+           0.2F * std::min(0.0F, brush.blobs(x, y, 0.12F, 6, true)) +
            (stain > 0.55F ? -0.2F : 0.0F);
   }
 };
