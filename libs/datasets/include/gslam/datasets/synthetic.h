@@ -33,9 +33,9 @@ struct SyntheticOptions {
   /// @name World
   /// @{
   /// * room: 9 to 10.5 by 10 to 12 m, furniture along its walls, once around a table, 20 to 26 m
-  /// * corridor: around a block of offices, 38 to 52 m, where it often looks alike
-  /// * street: by car around a block of houses, about 230 m, with trees and a sky
-  /// * aerial: 72 m above hills with fields and villages, cameras look down, about 520 m
+  /// * corridor: around a block of offices, 38 to 52 m, much alike on all sides
+  /// * street: by car around a block of houses, 230 to 281 m, with trees and a sky
+  /// * aerial: 72 m above hills with fields and villages, cameras look down, about 610 m
   std::string world = "room";
   std::uint64_t seed = 1;  ///< of everything: the things, the way, the errors of the sensors
   int frames = 600;        ///< 1 to 100000, with those that are dropped
