@@ -4,6 +4,8 @@
 /// @file
 /// All of GSLAM::datasets.
 
+#include <gslam/datasets/contact_sheet.h>
+#include <gslam/datasets/export_dataset.h>
 #include <gslam/datasets/synthetic.h>
 #include <gslam/datasets/version.h>
 
