@@ -232,16 +232,100 @@ TEST(Map, CopiesGoTheirOwnWays) {
   ASSERT_NO_FATAL_FAILURE(expectSame(third.map, third.model));
 }
 
+// NOLINTBEGIN(bugprone-use-after-move,clang-analyzer-cplusplus.Move): that is what it is about
+void expectEmpty(Map& map) {
+  EXPECT_TRUE(map.keyframes().empty() && map.points().empty() && map.edges().empty());
+  EXPECT_TRUE(map.rig().cameras.empty());
+  EXPECT_EQ(map.observationCount(), 0u);
+  EXPECT_EQ(map.nextPointId(), PointId(0));
+  EXPECT_EQ(map.nextKeyframeId(), KeyframeId(0));
+  EXPECT_EQ(map.nextEdgeId(), EdgeId(0));
+  EXPECT_EQ(map.add(MapPoint()), PointId(0));  // and is as good as new
+  EXPECT_THAT(map.observations(PointId(0)), IsEmpty());
+  EXPECT_EQ(map.shape(PointId(0)), nullptr);
+  EXPECT_EQ(map.descriptor(PointId(0)), nullptr);
+  EXPECT_THAT(gslam::validate(map), IsEmpty());
+}
+
 TEST(Map, MovedFromIsEmpty) {
   Map map = RandomMap(1).map(5, 20);
   const std::size_t observations = map.observationCount();
   Map moved(std::move(map));
   EXPECT_EQ(moved.observationCount(), observations);
-  map = Map();  // also clears what a moved-from map may have
-  EXPECT_TRUE(map.points().empty());
+  expectEmpty(map);
   map = std::move(moved);
   EXPECT_EQ(map.observationCount(), observations);
+  expectEmpty(moved);
   EXPECT_THAT(gslam::validate(map), IsEmpty());
+}
+// NOLINTEND(bugprone-use-after-move,clang-analyzer-cplusplus.Move)
+
+// What a snapshot shares is copied when it is written, and what was there goes with the snapshot,
+// or at once where that is gone.
+TEST(Map, TakesWhatLiesInItself) {
+  Map map = RandomMap(2).map(6, 30);
+  const KeyframeId k[] = {(*map.keyframes().begin()).id, KeyframeId(3)};
+  const PointId a = (*map.points().begin()).id;
+  const PointId last = map.add(map.at(a));
+  const auto comeAndGo = [&map] { const Map snapshot = map; };
+  const SE3d pose = map.at(k[1]).T_world_body;
+  comeAndGo();
+  map.setPose(k[0], map.at(k[1]).T_world_body);
+  EXPECT_EQ(map.at(k[0]).T_world_body.translation(), pose.translation());
+  const MapPoint point = map.at(a);
+  comeAndGo();
+  map.setPosition(last, map.at(a).position);
+  EXPECT_EQ(map.at(last).position, point.position);
+  comeAndGo();
+  map.set(last, map.at(a));
+  EXPECT_EQ(map.at(last).color, point.color);
+  comeAndGo();
+  map.add(map.at(a));
+  comeAndGo();
+  map.add(map.at(k[0]));
+  comeAndGo();
+  map.setRig(map.rig());
+  map.setShape(a, gslam::Shape());
+  comeAndGo();
+  map.setShape(last, *map.shape(a));
+  comeAndGo();
+  map.setShape(a, *map.shape(last));
+  map.setDescriptor(a, RandomMap(1).image(4, 1, gslam::PixelType::u8, 1));
+  comeAndGo();
+  map.setDescriptor(last, *map.descriptor(a));
+  EXPECT_EQ(*map.descriptor(last), *map.descriptor(a));
+  EXPECT_THAT(gslam::validate(map), IsEmpty());
+}
+
+bool sameEdge(const PoseEdge& a, const PoseEdge& b) {
+  return a.from == b.from && a.to == b.to && a.kind == b.kind && a.scale == b.scale &&
+         a.T_from_to.translation() == b.T_from_to.translation() && a.information == b.information;
+}
+
+TEST(Map, AnEdgeThatIsSetToAnotherChangesNoOther) {
+  RandomMap random(4);
+  Map map;
+  std::vector<KeyframeId> k;
+  for (int i = 0; i < 5; ++i) k.push_back(map.add(random.keyframe(0, false)));
+  std::vector<EdgeId> edges;
+  for (std::size_t i = 0; i < 4; ++i) edges.push_back(map.add(random.edge(k[i], k[i + 1])));
+  for (const EdgeId x : edges) {
+    for (const EdgeId y : edges) {
+      for (const bool is_shared : {false, true}) {
+        Map changed = map;
+        if (is_shared) changed = Map(map);
+        changed.setPose(k[0], SE3d());
+        { const Map snapshot = is_shared ? changed : Map(); }
+        changed.set(x, changed.at(y));
+        for (const EdgeId z : edges) {
+          EXPECT_TRUE(sameEdge(changed.at(z), map.at(z == x ? y : z)));
+        }
+        EXPECT_THAT(gslam::validate(changed), IsEmpty());
+        const EdgeId added = changed.add(changed.at(y));
+        EXPECT_TRUE(sameEdge(changed.at(added), map.at(y)));
+      }
+    }
+  }
 }
 
 TEST(Map, IdsAreNotUsedAgain) {

@@ -50,7 +50,8 @@ struct MapLoader;
 /// the rest for heads and room to grow), and beside the graph 24 a feature and what descriptors and
 /// images have. A point's shape takes 58, its descriptor 50 where it is a view of others.
 ///
-/// Pointers and spans that it gives are valid until it changes or is gone.
+/// Pointers and spans that it gives are valid until it changes or is gone; what its functions are
+/// given may be in the map itself: `map.set(id, map.at(other))`.
 class Map {
  public:
   /// @{
@@ -148,7 +149,7 @@ class Map {
     insert(id, point);
     return id;
   }
-  EdgeId add(const PoseEdge& edge) {
+  EdgeId add(PoseEdge edge) {
     const EdgeId id = EdgeId(freeId(edge_end_));
     insert(id, edge);
     return id;
@@ -175,7 +176,7 @@ class Map {
     points_.insert(number, point, owner_);
     point_end_ = std::max(point_end_, number + 1);
   }
-  void insert(EdgeId id, const PoseEdge& edge) {
+  void insert(EdgeId id, PoseEdge edge) {
     const std::uint32_t number = checkedFree(find(id), "edge", std::uint32_t(id));
     checkEnds(edge);
     edges_.insert(number, edge, owner_);
@@ -187,7 +188,7 @@ class Map {
 
   /// Moves a keyframe.
   /// @throws ArgumentError when there is none
-  void setPose(KeyframeId id, const SE3d& T_world_body) {
+  void setPose(KeyframeId id, SE3d T_world_body) {
     editRow(id).keyframe.T_world_body = T_world_body;
   }
   /// Replaces the images of a keyframe, such as by none to save memory. Copies its features.
@@ -198,13 +199,13 @@ class Map {
   }
   /// Moves a point.
   /// @throws ArgumentError when there is none
-  void setPosition(PointId id, const Vec3d& position) { editPoint(id).position = position; }
+  void setPosition(PointId id, Vec3d position) { editPoint(id).position = position; }
   /// Replaces a point; who sees it, its shape and its descriptor stay.
   /// @throws ArgumentError when there is none
-  void set(PointId id, const MapPoint& point) { editPoint(id) = point; }
+  void set(PointId id, MapPoint point) { editPoint(id) = point; }
   /// Replaces an edge, which may change its ends.
   /// @throws ArgumentError when there is none, or as for add()
-  void set(EdgeId id, const PoseEdge& edge) {
+  void set(EdgeId id, PoseEdge edge) {
     at(id);
     checkEnds(edge);
     remove(id);
@@ -350,6 +351,8 @@ class Map {
   }
 
  private:
+  // Values that come in are copies where a record is written before they are read: writing may
+  // free or move what the caller named.
   friend struct detail::MapLoader;
 
   template <class Value>
