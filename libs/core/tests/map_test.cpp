@@ -487,6 +487,73 @@ TEST(MapCheck, SaysWhatIsWrong) {
                           "keyframe 0 has a feature in a camera that the rig does not have",
                           "point 0 has a position that is not finite"));
   EXPECT_EQ(gslam::validate(map, 1).size(), 1u);
+  EXPECT_THAT(gslam::validate(map, 0), IsEmpty());
+}
+
+TEST(MapCheck, SaysWhichNumbersAreWrong) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  Map map;
+  gslam::KeyframeContent content;
+  content.features.resize(2);
+  content.features[1].angle = kNan;
+  Keyframe keyframe;
+  keyframe.content = std::make_shared<const gslam::KeyframeContent>(content);
+  const KeyframeId a = map.add(keyframe), b = map.add(Keyframe());
+  MapPoint point;
+  point.normal = {0, kNan, 0};
+  map.add(point);
+  PoseEdge edge;
+  edge.from = a;
+  edge.to = b;
+  edge.information(2, 2) = -1;
+  map.add(edge);
+  edge.information(2, 2) = kNan;
+  map.add(edge);
+  edge.information(2, 2) = 1;
+  edge.information(0, 1) = 1;
+  edge.scale = 0;
+  map.add(edge);
+  EXPECT_THAT(
+      gslam::validate(map),
+      ElementsAre("keyframe 0 has a feature that is not finite",
+                  "point 0 has a normal that is not finite",
+                  "edge 0 has an information matrix with a number below 0 on its diagonal",
+                  "edge 1 has an information matrix that is not finite",
+                  "edge 2 has a scale that is not above 0",
+                  "edge 2 has an information matrix that is not symmetric"));
+}
+
+// Files have no place for them, so maps have none.
+TEST(Map, RefusesUnknownKinds) {
+  RandomMap random(1);
+  Map map;
+  const KeyframeId a = map.add(random.keyframe(0, true)), b = map.add(random.keyframe(0, false));
+  MapPoint point;
+  const PointId id = map.add(point);
+  point.kind = static_cast<gslam::PointKind>(5);
+  EXPECT_THROW(map.add(point), gslam::ArgumentError);
+  EXPECT_THROW(map.set(id, point), gslam::ArgumentError);
+  PoseEdge edge = random.edge(a, b);
+  const EdgeId edge_id = map.add(edge);
+  edge.kind = static_cast<gslam::EdgeKind>(4);
+  EXPECT_THROW(map.add(edge), gslam::ArgumentError);
+  EXPECT_THROW(map.set(edge_id, edge), gslam::ArgumentError);
+  EXPECT_EQ(map.at(edge_id).from, a);
+  gslam::KeyframeContent content;
+  content.images = random.images();
+  map.setImages(a, content.images);
+  content.images[1].kind = static_cast<gslam::ImageKind>(11);
+  EXPECT_THROW(map.setImages(a, content.images), gslam::ArgumentError);
+  Keyframe keyframe;
+  keyframe.content = std::make_shared<const gslam::KeyframeContent>(content);
+  EXPECT_THROW(map.add(keyframe), gslam::ArgumentError);
+  gslam::SensorRig rig = random.rig();
+  rig.cameras[0].kind = static_cast<gslam::ImageKind>(200);
+  EXPECT_THROW(map.setRig(rig), gslam::ArgumentError);
+  EXPECT_EQ(map.points().size(), 1u);
+  EXPECT_EQ(map.edges().size(), 1u);
+  EXPECT_EQ(map.keyframes().size(), 2u);
+  EXPECT_THAT(gslam::validate(map), IsEmpty());
 }
 
 }  // namespace

@@ -99,7 +99,11 @@ class Map {
     return rig_ == nullptr ? kNone : *rig_;
   }
   /// Sets the sensors.
-  void setRig(const SensorRig& rig) { rig_ = std::make_shared<const SensorRig>(rig); }
+  /// @throws ArgumentError when a camera has images of an unknown kind
+  void setRig(const SensorRig& rig) {
+    for (const CameraSensor& sensor : rig.cameras) checkKind(sensor.kind);
+    rig_ = std::make_shared<const SensorRig>(rig);
+  }
 
   /// @{
   /// All of a kind, in the order of their ids.
@@ -138,7 +142,8 @@ class Map {
   /// @{
   /// Adds one.
   /// @throws ArgumentError when descriptors are kept, but not one row a feature; when an edge's
-  ///   keyframe is not in the map or both are the same; Error when all ids were given
+  ///   keyframe is not in the map or both are the same; when it, or an image, is of an unknown
+  ///   kind; Error when all ids were given
   KeyframeId add(const Keyframe& keyframe) {
     const KeyframeId id = KeyframeId(freeId(keyframe_end_));
     insert(id, keyframe);
@@ -166,6 +171,7 @@ class Map {
     if (row.keyframe.content == nullptr) {
       row.keyframe.content = std::make_shared<const KeyframeContent>();
     }
+    checkKinds(row.keyframe.content->images);
     const std::size_t features = checkedFeatureCount(*row.keyframe.content);
     if (features != 0) row.points.edit(owner_).assign(features, kNoPoint);
     keyframes_.insert(number, std::move(row), owner_);
@@ -173,12 +179,13 @@ class Map {
   }
   void insert(PointId id, const MapPoint& point) {
     const std::uint32_t number = checkedFree(find(id), "point", std::uint32_t(id));
+    checkKind(point.kind);
     points_.insert(number, point, owner_);
     point_end_ = std::max(point_end_, number + 1);
   }
   void insert(EdgeId id, PoseEdge edge) {
     const std::uint32_t number = checkedFree(find(id), "edge", std::uint32_t(id));
-    checkEnds(edge);
+    checkEdge(edge);
     edges_.insert(number, edge, owner_);
     edge_end_ = std::max(edge_end_, number + 1);
     edge_lists_.add(std::uint32_t(edge.from), id, owner_);
@@ -192,8 +199,9 @@ class Map {
     editRow(id).keyframe.T_world_body = T_world_body;
   }
   /// Replaces the images of a keyframe, such as by none to save memory. Copies its features.
-  /// @throws ArgumentError when there is none
+  /// @throws ArgumentError when there is none, or an image is of an unknown kind
   void setImages(KeyframeId id, std::vector<CameraImage> images) {
+    checkKinds(images);
     Keyframe& keyframe = editRow(id).keyframe;
     keyframe.content = withImages(keyframe, std::move(images));
   }
@@ -201,13 +209,16 @@ class Map {
   /// @throws ArgumentError when there is none
   void setPosition(PointId id, Vec3d position) { editPoint(id).position = position; }
   /// Replaces a point; who sees it, its shape and its descriptor stay.
-  /// @throws ArgumentError when there is none
-  void set(PointId id, MapPoint point) { editPoint(id) = point; }
+  /// @throws ArgumentError when there is none, or it is of an unknown kind
+  void set(PointId id, MapPoint point) {
+    checkKind(point.kind);
+    editPoint(id) = point;
+  }
   /// Replaces an edge, which may change its ends.
   /// @throws ArgumentError when there is none, or as for add()
   void set(EdgeId id, PoseEdge edge) {
     at(id);
-    checkEnds(edge);
+    checkEdge(edge);
     remove(id);
     insert(id, edge);
   }
@@ -382,7 +393,24 @@ class Map {
                         "is none of the " + std::to_string(count) + " of keyframe " +
                             std::to_string(std::uint32_t(id)));
   }
-  void checkEnds(const PoseEdge& edge) const {
+  // Files have no place for kinds that are none.
+  static void checkKind(std::uint8_t kind, std::uint8_t end, const char* what) {
+    if (kind < end) return;
+    throw ArgumentError(std::string("kind of ") + what, "is " + std::to_string(kind) +
+                                                            ", expected 0 to " +
+                                                            std::to_string(end - 1));
+  }
+  static void checkKind(ImageKind kind) {
+    checkKind(std::uint8_t(kind), detail::kImageKinds, "image");
+  }
+  static void checkKind(PointKind kind) {
+    checkKind(std::uint8_t(kind), detail::kPointKinds, "point");
+  }
+  static void checkKinds(const std::vector<CameraImage>& images) {
+    for (const CameraImage& image : images) checkKind(image.kind);
+  }
+  void checkEdge(const PoseEdge& edge) const {
+    checkKind(std::uint8_t(edge.kind), detail::kEdgeKinds, "edge");
     at(edge.from);
     at(edge.to);
     if (edge.from == edge.to) throw ArgumentError("edge", "has the same keyframe at both ends");
