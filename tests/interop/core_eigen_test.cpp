@@ -94,7 +94,7 @@ TEST(CoreEigen, AMatrixIsMovedIntoAnImage) {
   EXPECT_EQ(static_cast<const void*>(image.bytes()), data);
   EXPECT_EQ(image.width(), 7);
   EXPECT_EQ(image.height(), 3);
-  EXPECT_TRUE(image.isUnique());
+  EXPECT_EQ(image.owner().use_count(), 1);
   EXPECT_EQ(viewImageAsEigen<float>(image), copy);
 }
 

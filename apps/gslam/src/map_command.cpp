@@ -29,7 +29,7 @@ gslam::Svar describe(const gslam::Map& map) {
                               {"points", map.points().size()},
                               {"observations", map.observationCount()},
                               {"edges", map.edges().size()},
-                              {"length_m", gslam::keyframeTrajectory(map).length()}});
+                              {"length_m", gslam::pathLength(map)}});
 }
 
 int printInfo(const Options& options, const std::string& path) {

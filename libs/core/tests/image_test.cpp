@@ -1,5 +1,6 @@
 // Images: who has which pixels, until when, and what is refused.
 #include <gmock/gmock.h>
+#include <gslam/core/frame.h>
 #include <gslam/core/image.h>
 #include <gtest/gtest.h>
 
@@ -65,7 +66,7 @@ TEST(Image, NoImage) {
   EXPECT_EQ(none.byteCount(), 0U);
   EXPECT_EQ(none.bytes(), nullptr);
   EXPECT_TRUE(none.isDense());
-  EXPECT_FALSE(none.isUnique());
+  EXPECT_EQ(none.owner(), nullptr);
   EXPECT_EQ(none.text(), "no image");
   EXPECT_TRUE(none.clone().empty());
   EXPECT_EQ(none, Image(0, 0, PixelType::f64, 3));
@@ -81,7 +82,7 @@ TEST(Image, HasPixelsOfItsOwnThatAreZeroAndAligned) {
       ASSERT_EQ(image.stride(), image.rowBytes());
       ASSERT_EQ(image.byteCount(), 5 * image.rowBytes());
       ASSERT_TRUE(image.isDense());
-      ASSERT_TRUE(image.isUnique());
+      ASSERT_EQ(image.owner().use_count(), 1);
       for (std::size_t i = 0; i < image.byteCount(); ++i) ASSERT_EQ(image.bytes()[i], 0);
     }
   }
@@ -113,17 +114,62 @@ TEST(Image, CopiesShareAndClonesDoNot) {
   Image image = numbered(5, 4, PixelType::f32, 3);
   Image copy = image;
   EXPECT_EQ(copy.bytes(), image.bytes());
-  EXPECT_FALSE(image.isUnique());
+  EXPECT_GT(image.owner().use_count(), 1);
   const Image clone = image.clone();
-  EXPECT_TRUE(clone.isUnique());
+  EXPECT_EQ(clone.owner().use_count(), 1);
   EXPECT_NE(clone.bytes(), image.bytes());
   EXPECT_EQ(clone, image);
   image.bytes()[7] ^= 1;
   EXPECT_EQ(copy, image);
   EXPECT_NE(clone, image);
   copy = Image();
-  EXPECT_TRUE(image.isUnique());
+  EXPECT_EQ(image.owner().use_count(), 1);
 }
+
+// Looks at what was moved from: that is what these tests are about.
+// NOLINTBEGIN(bugprone-use-after-move,clang-analyzer-cplusplus.Move)
+TEST(Image, WhatWasMovedFromIsNoImage) {
+  Image image = numbered(5, 4, PixelType::f32, 3);
+  const std::uint8_t* const pixels = image.bytes();
+  Image moved(std::move(image));
+  EXPECT_EQ(moved.bytes(), pixels);
+  EXPECT_TRUE(image.empty());
+  EXPECT_EQ(image.bytes(), nullptr);
+  EXPECT_EQ(image.width(), 0);
+  EXPECT_EQ(image.byteCount(), 0U);
+  EXPECT_EQ(image.owner(), nullptr);
+  EXPECT_EQ(image, Image());
+  image = numbered(1, 1, PixelType::u8, 1);
+  image = std::move(moved);
+  EXPECT_EQ(image.bytes(), pixels);
+  EXPECT_TRUE(moved.empty());
+  Image& itself = image;
+  image = std::move(itself);
+  EXPECT_EQ(image.bytes(), pixels);
+  EXPECT_EQ(image.owner().use_count(), 1);
+  moved.swap(image);
+  EXPECT_EQ(moved.bytes(), pixels);
+  EXPECT_TRUE(image.empty());
+}
+
+TEST(Image, WhatHoldsAnImageMovesIt) {
+  static_assert(std::is_nothrow_move_constructible<gslam::CameraImage>::value, "");
+  static_assert(std::is_nothrow_move_constructible<gslam::Frame>::value, "");
+  gslam::CameraImage first;
+  first.image = numbered(5, 4, PixelType::u8, 1);
+  const std::uint8_t* const pixels = first.image.bytes();
+  gslam::CameraImage second(std::move(first));
+  EXPECT_TRUE(first.image.empty());
+  EXPECT_EQ(first.image.bytes(), nullptr);
+  gslam::Frame frame;
+  frame.images.push_back(std::move(second));
+  EXPECT_TRUE(second.image.empty());
+  const gslam::Frame moved(std::move(frame));
+  EXPECT_TRUE(frame.images.empty());
+  EXPECT_EQ(moved.images[0].image.bytes(), pixels);
+  EXPECT_EQ(moved.images[0].image.owner().use_count(), 1);
+}
+// NOLINTEND(bugprone-use-after-move,clang-analyzer-cplusplus.Move)
 
 TEST(Image, AViewIsAPartWithTheSamePixels) {
   for (const PixelType type : kAllTypes) {
@@ -153,7 +199,7 @@ TEST(Image, AViewKeepsThePixelsAlive) {
     const Image image = numbered(5, 4, PixelType::u8, 1);
     part = image.view(2, 1, 2, 2);
   }
-  EXPECT_TRUE(part.isUnique());
+  EXPECT_EQ(part.owner().use_count(), 1);
   EXPECT_EQ(part.at<std::uint8_t>(1, 1), 31 * 2 + 3);
 }
 
@@ -263,7 +309,7 @@ TEST(Image, AnOwnerIsKept) {
   EXPECT_EQ(seen.use_count(), 2);
   const Image part = image.view(0, 0, 1, 1);
   EXPECT_EQ(seen.use_count(), 3);
-  EXPECT_FALSE(image.isUnique());
+  EXPECT_GT(image.owner().use_count(), 1);
   std::uint8_t memory[4] = {};
   EXPECT_EQ(Image::wrap(memory, 2, 2, PixelType::u8, 1, 0, nullptr).owner(), nullptr);
 }

@@ -1,5 +1,7 @@
 // The types that cross the border between a program and its plugins have the layout that is written
 // here, whatever flags they were compiled with; and a plugin that was compiled with others works.
+#include <gslam/core/map_check.h>
+#include <gslam/core/map_file.h>
 #include <gslam/core/plugins.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +13,7 @@
 #include <vector>
 
 #include "toy_frames.h"
+#include "toy_map.h"
 
 namespace {
 
@@ -46,6 +49,21 @@ static_assert(offsetof(BuildFacts, standard_library) == 32, "");
 static_assert(offsetof(BuildFacts, string_abi) == 52 && offsetof(BuildFacts, layout) == 56, "");
 static_assert(offsetof(BuildFacts, compiler) == 60, "");
 
+// Records of maps.
+static_assert(sizeof(Feature) == 24 && offsetof(Feature, octave) == 20, "");
+static_assert(offsetof(Feature, camera) == 22, "");
+static_assert(sizeof(Observation) == 8 && offsetof(Observation, feature) == 4, "");
+static_assert(sizeof(MapPoint) == 48 && offsetof(MapPoint, normal) == 24, "");
+static_assert(offsetof(MapPoint, color) == 36 && offsetof(MapPoint, label) == 40, "");
+static_assert(offsetof(MapPoint, kind) == 44, "");
+static_assert(sizeof(Shape) == 56 && offsetof(Shape, size) == 32, "");
+static_assert(sizeof(PoseEdge) == 368 && offsetof(PoseEdge, T_from_to) == 8, "");
+static_assert(offsetof(PoseEdge, scale) == 64 && offsetof(PoseEdge, information) == 72, "");
+static_assert(offsetof(PoseEdge, kind) == 360, "");
+static_assert(offsetof(Keyframe, stamp) == 8 && offsetof(Keyframe, T_world_body) == 16, "");
+static_assert(detail::kChunkSize == 256 && detail::kPageSize == 256, "");
+static_assert(sizeof(detail::MapLayout::Place) == 12, "");
+
 // What holds strings and vectors is made of these.
 constexpr std::size_t kText = sizeof(std::string), kList = sizeof(std::vector<int>);
 constexpr std::size_t kFunction = sizeof(std::function<void()>);
@@ -76,6 +94,20 @@ static_assert(offsetof(SensorRig, has_gnss) == kList + 104, "");
 static_assert(offsetof(SensorRig, gnss_antenna) == kList + 112, "");
 static_assert(sizeof(SensorRig) == kList + 136, "");
 static_assert(sizeof(Trajectory) == kList, "");
+static_assert(offsetof(Keyframe, content) == 72 && sizeof(Keyframe) == 88, "");
+static_assert(offsetof(KeyframeContent, features) == kList, "");
+static_assert(sizeof(KeyframeContent) == 2 * kList + sizeof(Image), "");
+static_assert(sizeof(detail::CowOwner) == 24 && sizeof(detail::Cow<int>) == 16, "");
+static_assert(offsetof(detail::KeyframeRow, points) == 88, "");
+static_assert(sizeof(detail::KeyframeRow) == 104, "");
+static_assert(sizeof(detail::RecordChunk<MapPoint>) == 512 + kList, "");
+static_assert(sizeof(detail::ListChunk<Observation>) == 512 + 2 * kList + 8, "");
+static_assert(sizeof(detail::MapLayout::PointPage) == 256 * 16, "");
+static_assert(sizeof(detail::MapLayout::PointNode) == 16 + 512 + kList, "");
+static_assert(sizeof(detail::MapLayout::PointsSeenNode) == 16 + kList, "");
+static_assert(sizeof(detail::RecordTable<MapPoint>) == kList + 8, "");
+static_assert(sizeof(detail::ListTable<Observation>) == kList, "");
+static_assert(sizeof(Map) == 24 + 16 + 5 * (kList + 8) + 2 * kList + 8 + 16, "");
 static_assert(offsetof(DatasetInfo, sensors) == 3 * kText, "");
 static_assert(offsetof(DatasetInfo, ground_truth) == 3 * kText + sizeof(SensorRig), "");
 static_assert(sizeof(DatasetInfo) == 3 * kText + sizeof(SensorRig) + kList + 16, "");
@@ -151,8 +183,29 @@ TEST(Layout, PluginsCompiledWithOtherFlagsGetEveryBitAndGiveItBack) {
     EXPECT_LT((a.T_world_body.rotation().inverse() * b.T_world_body.rotation()).log().norm(),
               1e-15);
   }
-  EXPECT_NE(pair.native().map(), nullptr);
   pair.native().finish();
+}
+
+// Both sides walk through the same storage, and write to copies of it.
+TEST(Layout, MapsOfPluginsCompiledWithOtherFlagsAreReadAndGoOn) {
+  SlamPair pair;
+  pair.configure(Svar::object({{"has_map", true}}));
+  const std::shared_ptr<const Map> map = pair.native().map();
+  ASSERT_NE(map, nullptr);
+  const Map expected = toyMap();
+  EXPECT_EQ(mapToBytes(*map), mapToBytes(expected));
+  EXPECT_TRUE(validate(*map).empty());
+  Map edited = *map, same = expected;
+  for (Map* const one : {&edited, &same}) {
+    const PointId stays = (*one->points().begin()).id;
+    one->merge(stays, PointId(std::uint32_t(one->nextPointId()) - 1));
+    one->setPose((*one->keyframes().begin()).id, SE3d());
+    one->remove((*one->edges().begin()).id);
+    one->observe(one->add(one->at(stays)), KeyframeId(2), 1);
+  }
+  EXPECT_EQ(mapToBytes(edited), mapToBytes(same));
+  EXPECT_TRUE(validate(edited).empty());
+  EXPECT_EQ(mapToBytes(*map), mapToBytes(expected));
 }
 
 TEST(Layout, ExceptionsOfPluginsCompiledWithOtherFlagsAreCaughtByType) {

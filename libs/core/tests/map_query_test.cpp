@@ -197,8 +197,29 @@ TEST(MapTrajectory, HasTheKeyframesInTheOrderOfTime) {
   ASSERT_EQ(trajectory.size(), 3u);
   EXPECT_EQ(trajectory[1].stamp, 20);
   EXPECT_EQ(trajectory[1].pose.translation()[0], 20);
+  EXPECT_EQ(gslam::pathLength(map), 20);
   map.add(keyframe);
-  EXPECT_THROW(gslam::keyframeTrajectory(map), gslam::ArgumentError);
+  try {
+    gslam::keyframeTrajectory(map);
+    ADD_FAILURE();
+  } catch (const gslam::ArgumentError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("keyframes 2 and 3"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("20 ns"));
+  }
+}
+
+TEST(MapTrajectory, HasALengthWhateverTheStamps) {
+  Map map;
+  EXPECT_EQ(gslam::pathLength(map), 0);
+  Keyframe keyframe;
+  for (const double x : {0, 4, 1}) {  // at the same time: by id
+    keyframe.T_world_body = SE3d(gslam::SO3d(), {x, 0, 0});
+    map.add(keyframe);
+  }
+  EXPECT_EQ(gslam::pathLength(map), 7);
+  keyframe.stamp = -1;
+  map.add(keyframe);
+  EXPECT_EQ(gslam::pathLength(map), 8);
 }
 
 }  // namespace

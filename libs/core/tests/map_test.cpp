@@ -232,16 +232,100 @@ TEST(Map, CopiesGoTheirOwnWays) {
   ASSERT_NO_FATAL_FAILURE(expectSame(third.map, third.model));
 }
 
+// NOLINTBEGIN(bugprone-use-after-move,clang-analyzer-cplusplus.Move): that is what it is about
+void expectEmpty(Map& map) {
+  EXPECT_TRUE(map.keyframes().empty() && map.points().empty() && map.edges().empty());
+  EXPECT_TRUE(map.rig().cameras.empty());
+  EXPECT_EQ(map.observationCount(), 0u);
+  EXPECT_EQ(map.nextPointId(), PointId(0));
+  EXPECT_EQ(map.nextKeyframeId(), KeyframeId(0));
+  EXPECT_EQ(map.nextEdgeId(), EdgeId(0));
+  EXPECT_EQ(map.add(MapPoint()), PointId(0));  // and is as good as new
+  EXPECT_THAT(map.observations(PointId(0)), IsEmpty());
+  EXPECT_EQ(map.shape(PointId(0)), nullptr);
+  EXPECT_EQ(map.descriptor(PointId(0)), nullptr);
+  EXPECT_THAT(gslam::validate(map), IsEmpty());
+}
+
 TEST(Map, MovedFromIsEmpty) {
   Map map = RandomMap(1).map(5, 20);
   const std::size_t observations = map.observationCount();
   Map moved(std::move(map));
   EXPECT_EQ(moved.observationCount(), observations);
-  map = Map();  // also clears what a moved-from map may have
-  EXPECT_TRUE(map.points().empty());
+  expectEmpty(map);
   map = std::move(moved);
   EXPECT_EQ(map.observationCount(), observations);
+  expectEmpty(moved);
   EXPECT_THAT(gslam::validate(map), IsEmpty());
+}
+// NOLINTEND(bugprone-use-after-move,clang-analyzer-cplusplus.Move)
+
+// What a snapshot shares is copied when it is written, and what was there goes with the snapshot,
+// or at once where that is gone.
+TEST(Map, TakesWhatLiesInItself) {
+  Map map = RandomMap(2).map(6, 30);
+  const KeyframeId k[] = {(*map.keyframes().begin()).id, KeyframeId(3)};
+  const PointId a = (*map.points().begin()).id;
+  const PointId last = map.add(map.at(a));
+  const auto comeAndGo = [&map] { const Map snapshot = map; };
+  const SE3d pose = map.at(k[1]).T_world_body;
+  comeAndGo();
+  map.setPose(k[0], map.at(k[1]).T_world_body);
+  EXPECT_EQ(map.at(k[0]).T_world_body.translation(), pose.translation());
+  const MapPoint point = map.at(a);
+  comeAndGo();
+  map.setPosition(last, map.at(a).position);
+  EXPECT_EQ(map.at(last).position, point.position);
+  comeAndGo();
+  map.set(last, map.at(a));
+  EXPECT_EQ(map.at(last).color, point.color);
+  comeAndGo();
+  map.add(map.at(a));
+  comeAndGo();
+  map.add(map.at(k[0]));
+  comeAndGo();
+  map.setRig(map.rig());
+  map.setShape(a, gslam::Shape());
+  comeAndGo();
+  map.setShape(last, *map.shape(a));
+  comeAndGo();
+  map.setShape(a, *map.shape(last));
+  map.setDescriptor(a, RandomMap(1).image(4, 1, gslam::PixelType::u8, 1));
+  comeAndGo();
+  map.setDescriptor(last, *map.descriptor(a));
+  EXPECT_EQ(*map.descriptor(last), *map.descriptor(a));
+  EXPECT_THAT(gslam::validate(map), IsEmpty());
+}
+
+bool sameEdge(const PoseEdge& a, const PoseEdge& b) {
+  return a.from == b.from && a.to == b.to && a.kind == b.kind && a.scale == b.scale &&
+         a.T_from_to.translation() == b.T_from_to.translation() && a.information == b.information;
+}
+
+TEST(Map, AnEdgeThatIsSetToAnotherChangesNoOther) {
+  RandomMap random(4);
+  Map map;
+  std::vector<KeyframeId> k;
+  for (int i = 0; i < 5; ++i) k.push_back(map.add(random.keyframe(0, false)));
+  std::vector<EdgeId> edges;
+  for (std::size_t i = 0; i < 4; ++i) edges.push_back(map.add(random.edge(k[i], k[i + 1])));
+  for (const EdgeId x : edges) {
+    for (const EdgeId y : edges) {
+      for (const bool is_shared : {false, true}) {
+        Map changed = map;
+        if (is_shared) changed = Map(map);
+        changed.setPose(k[0], SE3d());
+        { const Map snapshot = is_shared ? changed : Map(); }
+        changed.set(x, changed.at(y));
+        for (const EdgeId z : edges) {
+          EXPECT_TRUE(sameEdge(changed.at(z), map.at(z == x ? y : z)));
+        }
+        EXPECT_THAT(gslam::validate(changed), IsEmpty());
+        const EdgeId added = changed.add(changed.at(y));
+        EXPECT_TRUE(sameEdge(changed.at(added), map.at(y)));
+      }
+    }
+  }
 }
 
 TEST(Map, IdsAreNotUsedAgain) {
@@ -403,6 +487,73 @@ TEST(MapCheck, SaysWhatIsWrong) {
                           "keyframe 0 has a feature in a camera that the rig does not have",
                           "point 0 has a position that is not finite"));
   EXPECT_EQ(gslam::validate(map, 1).size(), 1u);
+  EXPECT_THAT(gslam::validate(map, 0), IsEmpty());
+}
+
+TEST(MapCheck, SaysWhichNumbersAreWrong) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  Map map;
+  gslam::KeyframeContent content;
+  content.features.resize(2);
+  content.features[1].angle = kNan;
+  Keyframe keyframe;
+  keyframe.content = std::make_shared<const gslam::KeyframeContent>(content);
+  const KeyframeId a = map.add(keyframe), b = map.add(Keyframe());
+  MapPoint point;
+  point.normal = {0, kNan, 0};
+  map.add(point);
+  PoseEdge edge;
+  edge.from = a;
+  edge.to = b;
+  edge.information(2, 2) = -1;
+  map.add(edge);
+  edge.information(2, 2) = kNan;
+  map.add(edge);
+  edge.information(2, 2) = 1;
+  edge.information(0, 1) = 1;
+  edge.scale = 0;
+  map.add(edge);
+  EXPECT_THAT(
+      gslam::validate(map),
+      ElementsAre("keyframe 0 has a feature that is not finite",
+                  "point 0 has a normal that is not finite",
+                  "edge 0 has an information matrix with a number below 0 on its diagonal",
+                  "edge 1 has an information matrix that is not finite",
+                  "edge 2 has a scale that is not above 0",
+                  "edge 2 has an information matrix that is not symmetric"));
+}
+
+// Files have no place for them, so maps have none.
+TEST(Map, RefusesUnknownKinds) {
+  RandomMap random(1);
+  Map map;
+  const KeyframeId a = map.add(random.keyframe(0, true)), b = map.add(random.keyframe(0, false));
+  MapPoint point;
+  const PointId id = map.add(point);
+  point.kind = static_cast<gslam::PointKind>(5);
+  EXPECT_THROW(map.add(point), gslam::ArgumentError);
+  EXPECT_THROW(map.set(id, point), gslam::ArgumentError);
+  PoseEdge edge = random.edge(a, b);
+  const EdgeId edge_id = map.add(edge);
+  edge.kind = static_cast<gslam::EdgeKind>(4);
+  EXPECT_THROW(map.add(edge), gslam::ArgumentError);
+  EXPECT_THROW(map.set(edge_id, edge), gslam::ArgumentError);
+  EXPECT_EQ(map.at(edge_id).from, a);
+  gslam::KeyframeContent content;
+  content.images = random.images();
+  map.setImages(a, content.images);
+  content.images[1].kind = static_cast<gslam::ImageKind>(11);
+  EXPECT_THROW(map.setImages(a, content.images), gslam::ArgumentError);
+  Keyframe keyframe;
+  keyframe.content = std::make_shared<const gslam::KeyframeContent>(content);
+  EXPECT_THROW(map.add(keyframe), gslam::ArgumentError);
+  gslam::SensorRig rig = random.rig();
+  rig.cameras[0].kind = static_cast<gslam::ImageKind>(200);
+  EXPECT_THROW(map.setRig(rig), gslam::ArgumentError);
+  EXPECT_EQ(map.points().size(), 1u);
+  EXPECT_EQ(map.edges().size(), 1u);
+  EXPECT_EQ(map.keyframes().size(), 2u);
+  EXPECT_THAT(gslam::validate(map), IsEmpty());
 }
 
 }  // namespace

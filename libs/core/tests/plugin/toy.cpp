@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "../toy_map.h"
+
 namespace {
 
 using gslam::Frame;
@@ -168,7 +170,7 @@ class Toy : public gslam::Slam {
   std::shared_ptr<const gslam::Map> map() override {
     act("map", 0);
     if (!parameters_.get<bool>("has_map", false)) return nullptr;
-    return std::make_shared<gslam::Map>();
+    return std::make_shared<gslam::Map>(toyMap());
   }
 
   void finish() override {

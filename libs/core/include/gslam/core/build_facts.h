@@ -4,6 +4,7 @@
 #include <gslam/base/version.h>
 #include <gslam/core/application.h>
 #include <gslam/core/dataset.h>
+#include <gslam/core/detail/map_layout.h>
 #include <gslam/core/frame.h>
 #include <gslam/core/registry.h>
 #include <gslam/core/slam.h>
@@ -129,10 +130,16 @@ struct LayoutOf<T, Ts...> {
       mixedSize(mixedSize(LayoutOf<Ts...>::value, sizeof(T)), alignof(T));
 };
 
-using BorderLayout = LayoutOf<Svar, Messenger, Image, CameraImage, Frame, ImuSample, ImuCalibration,
-                              GnssSample, CameraSensor, SensorRig, SensorNeeds, Map, Trajectory,
-                              DatasetInfo, TrackedPose, SlamSetup, ApplicationSetup, DatasetFactory,
-                              SlamFactory, ApplicationFactory, Registry>;
+// Of maps also the inside, which both sides walk through.
+using BorderLayout = LayoutOf<
+    Svar, Messenger, Image, CameraImage, Frame, ImuSample, ImuCalibration, GnssSample, CameraSensor,
+    SensorRig, SensorNeeds, Map, Trajectory, DatasetInfo, TrackedPose, SlamSetup, ApplicationSetup,
+    DatasetFactory, SlamFactory, ApplicationFactory, Registry, Feature, KeyframeContent, Keyframe,
+    KeyframeRow, Observation, MapPoint, Shape, PoseEdge, CowOwner, Cow<std::vector<PointId>>,
+    MapLayout::ChunkSize, MapLayout::PageSize, RecordChunk<KeyframeRow>, RecordChunk<MapPoint>,
+    ListChunk<Observation>, MapLayout::Place, MapLayout::KeyframePage, MapLayout::KeyframeNode,
+    MapLayout::PointPage, MapLayout::PointNode, MapLayout::ObservationPage,
+    MapLayout::ObservationNode, MapLayout::PointsSeenNode>;
 
 }  // namespace detail
 

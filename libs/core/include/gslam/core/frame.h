@@ -33,6 +33,10 @@ enum class ImageKind : std::uint8_t {
   label       ///< number of a class or object
 };
 
+namespace detail {
+constexpr std::uint8_t kImageKinds = 11;  // number of them
+}
+
 /// Its name, such as "grey"; "unknown" for a number that is no kind.
 inline const char* imageKindName(ImageKind kind) noexcept {
   static const char* const kNames[] = {"grey",  "rgb",       "bgr",      "rgba", "bgra", "bayer",

@@ -13,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 /// @file
@@ -35,6 +36,29 @@ class Image {
  public:
   /// No image: no pixels, empty().
   Image() noexcept = default;
+  /// @{
+  /// Copies share the pixels; what was moved from is no image.
+  Image(const Image& other) = default;
+  Image(Image&& other) noexcept { swap(other); }
+  Image& operator=(const Image& other) = default;
+  Image& operator=(Image&& other) noexcept {
+    Image moved(std::move(other));
+    swap(moved);
+    return *this;
+  }
+  /// @}
+  ~Image() = default;
+
+  /// Exchanges two images, not their pixels.
+  void swap(Image& other) noexcept {
+    owner_.swap(other.owner_);
+    std::swap(data_, other.data_);
+    std::swap(width_, other.width_);
+    std::swap(height_, other.height_);
+    std::swap(stride_, other.stride_);
+    std::swap(channels_, other.channels_);
+    std::swap(type_, other.type_);
+  }
 
   /// Pixels of its own, all zero.
   /// @param width, height  pixels; both 0, or both 1 or more
@@ -104,9 +128,6 @@ class Image {
   std::size_t byteCount() const noexcept {
     return empty() ? 0 : stride_ * (std::size_t(height_) - 1) + rowBytes();
   }
-  /// Whether no other Image shares the owner of these pixels. Of those that wrap() was given only
-  /// their owner knows who else may see a change.
-  bool isUnique() const noexcept { return owner_.use_count() == 1; }
   /// What keeps the pixels alive; null for pixels that the caller keeps.
   const std::shared_ptr<void>& owner() const noexcept { return owner_; }
 
@@ -297,6 +318,9 @@ class Image {
 };
 
 static_assert(sizeof(void*) != 8 || sizeof(Image) == 48, "an Image crosses plugin borders");
+static_assert(std::is_nothrow_move_constructible<Image>::value &&
+                  std::is_nothrow_move_assignable<Image>::value,
+              "a std::vector of images moves them when it grows");
 
 }  // namespace v1
 }  // namespace gslam

@@ -50,7 +50,8 @@ struct MapLoader;
 /// the rest for heads and room to grow), and beside the graph 24 a feature and what descriptors and
 /// images have. A point's shape takes 58, its descriptor 50 where it is a view of others.
 ///
-/// Pointers and spans that it gives are valid until it changes or is gone.
+/// Pointers and spans that it gives are valid until it changes or is gone; what its functions are
+/// given may be in the map itself: `map.set(id, map.at(other))`.
 class Map {
  public:
   /// @{
@@ -98,7 +99,11 @@ class Map {
     return rig_ == nullptr ? kNone : *rig_;
   }
   /// Sets the sensors.
-  void setRig(const SensorRig& rig) { rig_ = std::make_shared<const SensorRig>(rig); }
+  /// @throws ArgumentError when a camera has images of an unknown kind
+  void setRig(const SensorRig& rig) {
+    for (const CameraSensor& sensor : rig.cameras) checkKind(sensor.kind);
+    rig_ = std::make_shared<const SensorRig>(rig);
+  }
 
   /// @{
   /// All of a kind, in the order of their ids.
@@ -137,7 +142,8 @@ class Map {
   /// @{
   /// Adds one.
   /// @throws ArgumentError when descriptors are kept, but not one row a feature; when an edge's
-  ///   keyframe is not in the map or both are the same; Error when all ids were given
+  ///   keyframe is not in the map or both are the same; when it, or an image, is of an unknown
+  ///   kind; Error when all ids were given
   KeyframeId add(const Keyframe& keyframe) {
     const KeyframeId id = KeyframeId(freeId(keyframe_end_));
     insert(id, keyframe);
@@ -148,7 +154,7 @@ class Map {
     insert(id, point);
     return id;
   }
-  EdgeId add(const PoseEdge& edge) {
+  EdgeId add(PoseEdge edge) {
     const EdgeId id = EdgeId(freeId(edge_end_));
     insert(id, edge);
     return id;
@@ -165,6 +171,7 @@ class Map {
     if (row.keyframe.content == nullptr) {
       row.keyframe.content = std::make_shared<const KeyframeContent>();
     }
+    checkKinds(row.keyframe.content->images);
     const std::size_t features = checkedFeatureCount(*row.keyframe.content);
     if (features != 0) row.points.edit(owner_).assign(features, kNoPoint);
     keyframes_.insert(number, std::move(row), owner_);
@@ -172,12 +179,13 @@ class Map {
   }
   void insert(PointId id, const MapPoint& point) {
     const std::uint32_t number = checkedFree(find(id), "point", std::uint32_t(id));
+    checkKind(point.kind);
     points_.insert(number, point, owner_);
     point_end_ = std::max(point_end_, number + 1);
   }
-  void insert(EdgeId id, const PoseEdge& edge) {
+  void insert(EdgeId id, PoseEdge edge) {
     const std::uint32_t number = checkedFree(find(id), "edge", std::uint32_t(id));
-    checkEnds(edge);
+    checkEdge(edge);
     edges_.insert(number, edge, owner_);
     edge_end_ = std::max(edge_end_, number + 1);
     edge_lists_.add(std::uint32_t(edge.from), id, owner_);
@@ -187,26 +195,30 @@ class Map {
 
   /// Moves a keyframe.
   /// @throws ArgumentError when there is none
-  void setPose(KeyframeId id, const SE3d& T_world_body) {
+  void setPose(KeyframeId id, SE3d T_world_body) {
     editRow(id).keyframe.T_world_body = T_world_body;
   }
   /// Replaces the images of a keyframe, such as by none to save memory. Copies its features.
-  /// @throws ArgumentError when there is none
+  /// @throws ArgumentError when there is none, or an image is of an unknown kind
   void setImages(KeyframeId id, std::vector<CameraImage> images) {
+    checkKinds(images);
     Keyframe& keyframe = editRow(id).keyframe;
     keyframe.content = withImages(keyframe, std::move(images));
   }
   /// Moves a point.
   /// @throws ArgumentError when there is none
-  void setPosition(PointId id, const Vec3d& position) { editPoint(id).position = position; }
+  void setPosition(PointId id, Vec3d position) { editPoint(id).position = position; }
   /// Replaces a point; who sees it, its shape and its descriptor stay.
-  /// @throws ArgumentError when there is none
-  void set(PointId id, const MapPoint& point) { editPoint(id) = point; }
+  /// @throws ArgumentError when there is none, or it is of an unknown kind
+  void set(PointId id, MapPoint point) {
+    checkKind(point.kind);
+    editPoint(id) = point;
+  }
   /// Replaces an edge, which may change its ends.
   /// @throws ArgumentError when there is none, or as for add()
-  void set(EdgeId id, const PoseEdge& edge) {
+  void set(EdgeId id, PoseEdge edge) {
     at(id);
-    checkEnds(edge);
+    checkEdge(edge);
     remove(id);
     insert(id, edge);
   }
@@ -350,6 +362,8 @@ class Map {
   }
 
  private:
+  // Values that come in are copies where a record is written before they are read: writing may
+  // free or move what the caller named.
   friend struct detail::MapLoader;
 
   template <class Value>
@@ -379,7 +393,24 @@ class Map {
                         "is none of the " + std::to_string(count) + " of keyframe " +
                             std::to_string(std::uint32_t(id)));
   }
-  void checkEnds(const PoseEdge& edge) const {
+  // Files have no place for kinds that are none.
+  static void checkKind(std::uint8_t kind, std::uint8_t end, const char* what) {
+    if (kind < end) return;
+    throw ArgumentError(std::string("kind of ") + what, "is " + std::to_string(kind) +
+                                                            ", expected 0 to " +
+                                                            std::to_string(end - 1));
+  }
+  static void checkKind(ImageKind kind) {
+    checkKind(std::uint8_t(kind), detail::kImageKinds, "image");
+  }
+  static void checkKind(PointKind kind) {
+    checkKind(std::uint8_t(kind), detail::kPointKinds, "point");
+  }
+  static void checkKinds(const std::vector<CameraImage>& images) {
+    for (const CameraImage& image : images) checkKind(image.kind);
+  }
+  void checkEdge(const PoseEdge& edge) const {
+    checkKind(std::uint8_t(edge.kind), detail::kEdgeKinds, "edge");
     at(edge.from);
     at(edge.to);
     if (edge.from == edge.to) throw ArgumentError("edge", "has the same keyframe at both ends");

@@ -79,6 +79,10 @@ enum class PointKind : std::uint8_t {
   object = 4    ///< a thing in a box: Shape::size are its edges
 };
 
+namespace detail {
+constexpr std::uint8_t kPointKinds = 5;  // number of them
+}
+
 /// Its name, such as "point"; "unknown" for a number that is no kind.
 inline const char* pointKindName(PointKind kind) noexcept {
   static const char* const kNames[] = {"point", "control", "line", "plane", "object"};
@@ -108,7 +112,7 @@ struct MapPoint {
   Color color{};                      ///< as it was seen
   std::uint32_t label = 0;            ///< number of a class or object; 0: none
   PointKind kind = PointKind::point;  ///< what it is
-  std::uint8_t reserved[3] = {};      ///< zero
+  std::uint8_t reserved[3] = {};      ///< zero; not written to files
 };
 
 /// The extent of what is more than a point, about MapPoint::position. PointKind says what it means.
@@ -124,6 +128,10 @@ enum class EdgeKind : std::uint8_t {
   reference = 2,  ///< the keyframe that another was made from, as in a spanning tree
   other = 3
 };
+
+namespace detail {
+constexpr std::uint8_t kEdgeKinds = 4;  // number of them
+}
 
 /// Its name, such as "loop"; "unknown" for a number that is no kind.
 inline const char* edgeKindName(EdgeKind kind) noexcept {
@@ -141,7 +149,7 @@ struct PoseEdge {
   Mat<double, 6, 6> information{};     ///< of (translation, rotation) in T_from_to * exp(delta);
                                        ///< zero: a link without a measurement
   EdgeKind kind = EdgeKind::odometry;  ///< where it comes from
-  std::uint8_t reserved[7] = {};       ///< zero
+  std::uint8_t reserved[7] = {};       ///< zero; not written to files
 };
 
 static_assert(sizeof(Feature) == 24 && sizeof(Observation) == 8 && sizeof(MapPoint) == 48 &&

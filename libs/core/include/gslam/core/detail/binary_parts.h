@@ -2,6 +2,7 @@
 #ifndef GSLAM_CORE_DETAIL_BINARY_PARTS_H
 #define GSLAM_CORE_DETAIL_BINARY_PARTS_H
 
+#include <gslam/base/error.h>
 #include <gslam/core/detail/binary_reader.h>
 #include <gslam/core/detail/binary_writer.h>
 #include <gslam/core/frame.h>
@@ -11,18 +12,18 @@
 #include <gslam/geometry/so3.h>
 #include <gslam/geometry/vec.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace gslam {
 inline namespace v1 {
 namespace detail {
-
-constexpr std::uint8_t kImageKinds = 11;  // number of them
 
 template <class T, std::size_t N>
 void writePart(BinaryWriter& out, const Vec<T, N>& v) {
@@ -35,12 +36,24 @@ void readPart(BinaryReader& in, Vec<T, N>& v) {
 
 // qx qy qz qw
 inline void writePart(BinaryWriter& out, const SO3d& rotation) {
-  writePart(out, rotation.quaternion());
+  const Vec4d& q = rotation.quaternion();
+  if (!(q.norm() > 1e-15 && std::isfinite(q.norm()))) {
+    throw ArgumentError("rotation", "is not finite or zero, which no reader takes");
+  }
+  writePart(out, q);
 }
+// What a product of rotations has lost of its norm stays lost: what is read is what was written, to
+// the bit. Only what is no product of rotations is normalised.
 inline void readPart(BinaryReader& in, SO3d& rotation) {
+  static_assert(std::is_trivially_copyable<SO3d>::value && sizeof(SO3d) == sizeof(Vec4d),
+                "a rotation is its quaternion");
   Vec4d q;
   readPart(in, q);
-  rotation = SO3d::fromQuaternion(q[0], q[1], q[2], q[3]);
+  if (std::fabs(q.squaredNorm() - 1) <= 1e-6) {
+    std::memcpy(static_cast<void*>(&rotation), q.data(), sizeof(rotation));
+  } else {
+    rotation = SO3d::fromQuaternion(q[0], q[1], q[2], q[3]);
+  }
 }
 
 // tx ty tz qx qy qz qw

@@ -55,6 +55,8 @@ class CowOwner {
   mutable std::atomic<bool> is_shared_;
 };
 
+struct MapLayout;
+
 // A value on the heap, shared by copies, or none.
 template <class T>
 class Cow {
@@ -76,6 +78,8 @@ class Cow {
   void reset() noexcept { node_.reset(); }
 
  private:
+  friend struct MapLayout;
+
   struct Node {
     explicit Node(const CowOwner::Token& writer) : token(writer), value() {}
     Node(const CowOwner::Token& writer, const T& copied) : token(writer), value(copied) {}

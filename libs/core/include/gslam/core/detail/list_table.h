@@ -64,6 +64,8 @@ class ListChunk {
   bool empty() const noexcept { return places_.empty(); }
 
  private:
+  friend struct MapLayout;
+
   struct Place {
     std::uint32_t begin;
     std::uint32_t size;

@@ -237,7 +237,7 @@ class MapReader {
     point.color.blue = in.number<std::uint8_t>();
     point.color.alpha = in.number<std::uint8_t>();
     point.label = in.number<std::uint32_t>();
-    point.kind = static_cast<PointKind>(in.choice(5, "kind of point"));
+    point.kind = static_cast<PointKind>(in.choice(kPointKinds, "kind of point"));
     in.zeros(3);
     loader_.map.insert(id, point);
   }
@@ -285,7 +285,7 @@ class MapReader {
     PoseEdge edge;
     edge.from = KeyframeId(in.number<std::uint32_t>());
     edge.to = KeyframeId(in.number<std::uint32_t>());
-    edge.kind = static_cast<EdgeKind>(in.choice(4, "kind of edge"));
+    edge.kind = static_cast<EdgeKind>(in.choice(kEdgeKinds, "kind of edge"));
     in.zeros(3);
     readPart(in, edge.T_from_to);
     edge.scale = in.number<double>();

@@ -170,7 +170,7 @@ class MapWriter {
     out_.number(point.color.alpha);
     out_.number(point.label);
     out_.number(static_cast<std::uint8_t>(point.kind));
-    out_.bytes(point.reserved, 3);
+    out_.bytes("\0\0\0", 3);
   }
 
   bool writeShapeOf(PointId id) {

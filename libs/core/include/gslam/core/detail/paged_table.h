@@ -64,6 +64,8 @@ class PagedTable {
   }
 
  private:
+  friend struct MapLayout;
+
   struct Page {
     Cow<Chunk> chunks[kPageSize];
   };

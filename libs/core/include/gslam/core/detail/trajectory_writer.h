@@ -3,9 +3,9 @@
 #define GSLAM_CORE_DETAIL_TRAJECTORY_WRITER_H
 
 #include <gslam/base/error.h>
+#include <gslam/core/detail/binary_file.h>
 #include <gslam/core/detail/stamp_text.h>
 #include <gslam/core/trajectory_file.h>
-#include <gslam/svar/detail/json_file.h>
 #include <gslam/svar/detail/print_number.h>
 
 #include <cstddef>
@@ -122,7 +122,7 @@ inline std::string printTrajectory(const Trajectory& trajectory, TrajectoryForma
 
 inline void writeTrajectory(const std::string& path, const Trajectory& trajectory,
                             TrajectoryFormat format) {
-  detail::replaceFile(path, printTrajectory(trajectory, format));
+  detail::writeTextFile(path, printTrajectory(trajectory, format));
 }
 
 inline void writeTrajectory(std::ostream& out, const Trajectory& trajectory,
@@ -138,7 +138,7 @@ inline void writeStamps(const std::string& path, const Trajectory& trajectory) {
     out.seconds(p.stamp);
     out.endLine();
   }
-  detail::replaceFile(path, out.take());
+  detail::writeTextFile(path, out.take());
 }
 
 }  // namespace v1
