@@ -396,9 +396,9 @@ class Map {
   // Files have no place for kinds that are none.
   static void checkKind(std::uint8_t kind, std::uint8_t end, const char* what) {
     if (kind < end) return;
-    throw ArgumentError(std::string("kind of ") + what, "is " + std::to_string(kind) +
-                                                            ", expected 0 to " +
-                                                            std::to_string(end - 1));
+    throw ArgumentError(
+        std::string("kind of ") + what,
+        "is " + std::to_string(kind) + ", expected 0 to " + std::to_string(end - 1));
   }
   static void checkKind(ImageKind kind) {
     checkKind(std::uint8_t(kind), detail::kImageKinds, "image");

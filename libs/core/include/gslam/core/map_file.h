@@ -75,8 +75,8 @@ struct BytesSink {
 /// Writes a map into a file, in one step: others see the old file or the new, and a failure leaves
 /// the old one as it was. Maps that are equal give the same bytes.
 ///
-/// A symbolic link stays one, and what it leads to is replaced; a file that is there keeps its mode.
-/// What is no ordinary file, such as a pipe, is written to as it is.
+/// A symbolic link stays one, and what it leads to is replaced; a file that is there keeps its
+/// mode. What is no ordinary file, such as a pipe, is written to as it is.
 /// @throws FileError when it cannot be written, ArgumentError when a rotation is not finite
 inline void saveMap(const std::string& path, const Map& map) {
   detail::NewFile file(path);

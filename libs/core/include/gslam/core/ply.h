@@ -25,8 +25,8 @@ struct PlyOptions {
   bool has_keyframes = true;  ///< an element "keyframe": time in seconds, x y z qx qy qz qw of the
                               ///< body
   double frustum_depth = 0;   ///< above 0: a pyramid of that height for each camera of each
-                             ///< keyframe, of vertices behind the points, whose property
-                             ///< "frustum" is 1, and of elements "edge"
+                              ///< keyframe, of vertices behind the points, whose property
+                              ///< "frustum" is 1, and of elements "edge"
 };
 
 /// Writes the points of a map, in the order of their ids, into a file, in one step. Positions are

@@ -112,7 +112,8 @@ class PointIndex {
   /// The points that a camera has in its image, whatever lies before them, in no order.
   /// @param T_world_camera  its pose
   /// @param max_distance    from the camera, 0 or more
-  /// @throws ArgumentError when the camera is none, the pose is not finite, or the distance is below
+  /// @throws ArgumentError when the camera is none, the pose is not finite, or the distance is
+  /// below
   ///   0 or not a number
   std::vector<VisiblePoint> visible(
       const Camera& camera, const SE3d& T_world_camera,

@@ -81,9 +81,9 @@ constexpr double kMatrixTolerance = 1e-3;
 /// Reads a trajectory.
 ///
 /// The format is found by the first line with numbers: 12 are KITTI (but EuRoC where they have
-/// commas and the first is a whole number of 1e15 or more), 8 without commas are TUM, 9 or more with
-/// commas are EuRoC. 8 with commas are EuRoC where the stamp is 1e15 or more or a comment has "ns",
-/// TUM where the stamp has a point, and else refused, as they are without a point where
+/// commas and the first is a whole number of 1e15 or more), 8 without commas are TUM, 9 or more
+/// with commas are EuRoC. 8 with commas are EuRoC where the stamp is 1e15 or more or a comment has
+/// "ns", TUM where the stamp has a point, and else refused, as they are without a point where
 /// TrajectoryFileOptions::tum_stamps are not seconds: nobody should guess which number is w.
 ///
 /// KITTI files have no stamps: each pose gets the number of its frame, from 0 on, **which is no
