@@ -3,6 +3,7 @@
 #include <gslam/core/trajectory_file.h>
 #include <gslam/geometry/random.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <clocale>
 #include <cstdint>
@@ -400,6 +401,19 @@ TEST_F(OnDisk, FilesComeBack) {
   expectSame(gslam::readTumTrajectory(file), t);
   std::ifstream left_over(file + ".0.tmp");
   EXPECT_FALSE(left_over.is_open());
+}
+
+TEST_F(OnDisk, ALinkStaysOneAndADeviceToo) {
+  const Trajectory t = drawn(10, 6);
+  const std::string file = path("file"), link = path("link");
+  gslam::writeTrajectory(file, Trajectory());
+  ASSERT_EQ(::symlink(file.c_str(), link.c_str()), 0);
+  gslam::writeTrajectory(link, t);
+  expectSame(gslam::readTumTrajectory(file), t);
+  gslam::writeStamps(link, t);
+  EXPECT_EQ(gslam::readStamps(file).size(), t.size());
+  EXPECT_NO_THROW(gslam::writeTrajectory("/dev/null", t));
+  EXPECT_TRUE(std::ifstream("/dev/null"));
 }
 
 TEST_F(OnDisk, KittiGetsItsTimesFromTheOtherFile) {
