@@ -105,9 +105,9 @@ static_assert(sizeof(detail::ListChunk<Observation>) == 512 + 2 * kList + 8, "")
 static_assert(sizeof(detail::MapLayout::PointPage) == 256 * 16, "");
 static_assert(sizeof(detail::MapLayout::PointNode) == 16 + 512 + kList, "");
 static_assert(sizeof(detail::MapLayout::PointsSeenNode) == 16 + kList, "");
-static_assert(sizeof(detail::RecordTable<MapPoint>) == kList + 8, "");
-static_assert(sizeof(detail::ListTable<Observation>) == kList, "");
-static_assert(sizeof(Map) == 24 + 16 + 5 * (kList + 8) + 2 * kList + 8 + 16, "");
+static_assert(sizeof(detail::RecordTable<MapPoint>) == 24, "");
+static_assert(sizeof(detail::ListTable<Observation>) == 16, "");
+static_assert(sizeof(Map) == 24 + 16 + 5 * 24 + 2 * 16 + 8 + 16, "");
 static_assert(offsetof(DatasetInfo, sensors) == 3 * kText, "");
 static_assert(offsetof(DatasetInfo, ground_truth) == 3 * kText + sizeof(SensorRig), "");
 static_assert(sizeof(DatasetInfo) == 3 * kText + sizeof(SensorRig) + kList + 16, "");

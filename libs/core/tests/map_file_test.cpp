@@ -1,17 +1,23 @@
 // Maps as files: all comes back, on paper as in code, and what is damaged is refused.
 #include <gmock/gmock.h>
+#include <gslam/core/detail/map_layout.h>
 #include <gslam/core/map_check.h>
 #include <gslam/core/map_file.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -378,6 +384,58 @@ TEST(MapFile, IsWhatItsDescriptionSays) {
   EXPECT_EQ(paper.edges.size(), map.edges().size());
 }
 
+TEST(MapFile, WritesZerosForWhatIsReserved) {
+  Map map = RandomMap(2).map(4, 5);
+  const Bytes bytes = mapToBytes(map);
+  MapPoint point = (*map.points().begin()).value;
+  point.reserved[1] = 7;
+  map.set((*map.points().begin()).id, point);
+  gslam::PoseEdge edge = (*map.edges().begin()).value;
+  edge.reserved[6] = 7;
+  map.set((*map.edges().begin()).id, edge);
+  EXPECT_EQ(mapToBytes(map), bytes);
+}
+
+// A long product of rotations has a norm that is no longer 1 to the last bits.
+TEST(MapFile, GivesPosesBackToTheBit) {
+  RandomMap random(3);
+  Map map;
+  map.setRig(random.rig());
+  for (int i = 0; i < 20; ++i) {
+    Keyframe keyframe;
+    keyframe.T_world_body = SE3d();
+    for (int k = 0; k < 2000; ++k) keyframe.T_world_body *= random.pose();
+    map.add(keyframe);
+    gslam::Shape shape;
+    shape.R_world_shape = keyframe.T_world_body.rotation();
+    map.setShape(map.add(MapPoint()), shape);
+  }
+  const Map again = mapFromBytes(mapToBytes(map));
+  bool have_drifted = false;
+  for (const auto& item : map.keyframes()) {
+    EXPECT_TRUE(same(again.at(item.id).T_world_body, item.value.T_world_body));
+    const double norm = item.value.T_world_body.rotation().quaternion().squaredNorm();
+    have_drifted = have_drifted || std::fabs(norm - 1) > 1e-15;
+  }
+  EXPECT_TRUE(have_drifted);
+  expectSame(again, map);
+  EXPECT_EQ(mapToBytes(again), mapToBytes(map));
+}
+
+TEST(MapFile, RefusesToWriteRotationsThatAreNone) {
+  Map map = RandomMap(2).map(4, 5);
+  const double none[7] = {std::nan(""), 0, 0, 1, 0, 0, 0};  // as arithmetic may give it
+  SE3d pose;
+  static_assert(sizeof(pose) == sizeof(none), "");
+  std::memcpy(static_cast<void*>(&pose), none, sizeof(pose));
+  map.setPose(KeyframeId(0), pose);
+  const std::string path = pathOf("kept");
+  saveMap(path, Map());
+  EXPECT_THROW(saveMap(path, map), gslam::ArgumentError);
+  EXPECT_NO_THROW(loadMap(path));
+  std::remove(path.c_str());
+}
+
 // ---- damage
 
 Map smallMap() {
@@ -437,6 +495,7 @@ TEST(MapFile, TakesOnlyWholeMapsFromWhoeverMeansHarm) {
         const Map map = mapFromBytes(bytes);
         for (const std::string& problem : gslam::validate(map)) {
           EXPECT_THAT(problem, testing::AnyOf(HasSubstr("finite"), HasSubstr("symmetric"),
+                                              HasSubstr("scale"), HasSubstr("diagonal"),
                                               HasSubstr("rig does not have")));
         }
         EXPECT_EQ(mapToBytes(mapFromBytes(mapToBytes(map))), mapToBytes(map));
@@ -484,6 +543,33 @@ TEST(MapFile, BelievesNoCount) {
     EXPECT_THAT(problemOf(bytes), HasSubstr("x.map: byte ")) << tag;
     EXPECT_THAT(problemOf(bytes), HasSubstr("a count of 4294967295 with 0 bytes left")) << tag;
   }
+}
+
+// The worst: each id in a page of its own, with little that is said of it.
+TEST(MapFile, TakesNoMoreMemoryThanItSays) {
+  using gslam::detail::MapLayout;
+  const auto bytesOf = [](std::uint32_t points) {
+    Map map;
+    const KeyframeId seer = map.add(RandomMap(1).keyframe(points, false));
+    for (std::uint32_t i = 0; i < points; ++i) {
+      map.insert(PointId(i << 16), MapPoint());
+      map.setDescriptor(PointId(i << 16), Image(1, 1, gslam::PixelType::u8));
+      map.observe(PointId(i << 16), seer, i);
+    }
+    EXPECT_EQ(mapToBytes(mapFromBytes(mapToBytes(map))), mapToBytes(map));
+    return mapToBytes(map).size();
+  };
+  const double bytes = double(bytesOf(300) - bytesOf(200)) / 100;  // of a point in a file
+  constexpr double kCount = 64;                                    // of references, and of the heap
+  const double tables[] = {
+      sizeof(MapLayout::PointPage) + sizeof(MapLayout::PointNode) + sizeof(MapPoint) + 4 * kCount,
+      sizeof(MapLayout::PointPage) + sizeof(MapLayout::PointNode) + sizeof(Image) + 4 * kCount,
+      sizeof(MapLayout::ObservationPage) + sizeof(MapLayout::ObservationNode) +
+          3 * sizeof(std::uint32_t) + sizeof(gslam::Observation) + 5 * kCount};
+  EXPECT_LT(tables[0] / 52, 200);
+  EXPECT_LT((tables[0] + tables[1]) / (52 + 5), 200);
+  EXPECT_LT((tables[0] + tables[1] + tables[2]) / (52 + 5 + 16), 210);
+  EXPECT_LT((tables[0] + tables[1] + tables[2]) / bytes, 200);
 }
 
 TEST(MapFile, SaysWhatIsWrong) {
@@ -542,6 +628,46 @@ TEST(MapFile, ReplacesTheOldFileOnlyWhenTheNewIsWhole) {
   EXPECT_TRUE(loadMap(path).points().empty());
   EXPECT_TRUE(std::ifstream(path + ".0.tmp"));
   std::remove((path + ".0.tmp").c_str());
+  std::remove(path.c_str());
+}
+
+TEST(MapFile, KeepsLinksAndModes) {
+  const std::string folder = pathOf("folder"), target = folder + "/target", link = folder + "/link";
+  ASSERT_EQ(::mkdir(folder.c_str(), 0755), 0);
+  ASSERT_EQ(::symlink("target", link.c_str()), 0);  // which is not there yet
+  saveMap(link, smallMap());
+  EXPECT_EQ(mapToBytes(loadMap(target)), mapToBytes(smallMap()));
+  ASSERT_EQ(::chmod(target.c_str(), 0640), 0);
+  saveMap(link, Map());
+  struct stat facts;
+  ASSERT_EQ(::lstat(link.c_str(), &facts), 0);
+  EXPECT_TRUE(S_ISLNK(facts.st_mode));
+  ASSERT_EQ(::lstat(target.c_str(), &facts), 0);
+  EXPECT_TRUE(S_ISREG(facts.st_mode));
+  EXPECT_EQ(facts.st_mode & 0777, 0640u);
+  EXPECT_TRUE(loadMap(target).points().empty());
+  const std::string circle = folder + "/circle";
+  ASSERT_EQ(::symlink("circle", circle.c_str()), 0);
+  std::remove(link.c_str());
+  std::remove(target.c_str());
+  std::remove(circle.c_str());
+  EXPECT_EQ(::rmdir(folder.c_str()), 0);  // nothing else is in it
+}
+
+TEST(MapFile, WritesIntoPipesAndDevices) {
+  saveMap("/dev/null", smallMap());
+  struct stat facts;
+  ASSERT_EQ(::stat("/dev/null", &facts), 0);
+  EXPECT_TRUE(S_ISCHR(facts.st_mode));
+  const std::string path = pathOf("pipe");
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  std::thread writer([&path] { saveMap(path, smallMap()); });
+  std::ifstream pipe(path, std::ios::binary);
+  const Bytes bytes((std::istreambuf_iterator<char>(pipe)), std::istreambuf_iterator<char>());
+  writer.join();
+  EXPECT_EQ(bytes, mapToBytes(smallMap()));
+  ASSERT_EQ(::stat(path.c_str(), &facts), 0);
+  EXPECT_TRUE(S_ISFIFO(facts.st_mode));
   std::remove(path.c_str());
 }
 

@@ -138,6 +138,25 @@ TEST(PointIndex, IgnoresWhatIsNowhere) {
   EXPECT_THAT(PointIndex(Map()).inRadius({0, 0, 0}, 3), IsEmpty());
 }
 
+TEST(PointIndex, RefusesQueriesThatAreNowhere) {
+  const PointIndex index(cloud(100));
+  const double inf = std::numeric_limits<double>::infinity(), nan = std::nan("");
+  const Camera camera = Camera::fromParameters("pinhole", 640, 480, {500, 500, 319.5, 239.5});
+  for (const double x : {inf, -inf, nan}) {
+    EXPECT_THROW(index.nearest({0, x, 0}, 3), gslam::ArgumentError);
+    EXPECT_THROW(index.inRadius({0, 0, x}, 3), gslam::ArgumentError);
+    EXPECT_THROW(index.visible(camera, SE3d(gslam::SO3d(), {x, 0, 0})), gslam::ArgumentError);
+  }
+  for (const double x : {-1.0, -inf, nan}) {
+    EXPECT_THROW(index.inRadius({0, 0, 0}, x), gslam::ArgumentError);
+    EXPECT_THROW(index.visible(camera, SE3d(), x), gslam::ArgumentError);
+  }
+  EXPECT_THROW(index.visible(Camera(), SE3d()), gslam::ArgumentError);
+  EXPECT_THROW(index.inBox({0, nan, 0}, {1, 1, 1}), gslam::ArgumentError);
+  EXPECT_THROW(index.inBox({0, 0, 0}, {1, 1, nan}), gslam::ArgumentError);
+  EXPECT_EQ(index.inBox({-inf, -inf, -inf}, {inf, inf, inf}).size(), 100u);
+}
+
 TEST(Covisibility, CountsPointsThatBothSee) {
   const Map map = RandomMap(11).map(20, 400);
   std::map<KeyframeId, std::set<PointId>> seen;

@@ -130,4 +130,28 @@ TEST(SharedMap, SnapshotsOutliveIt) {
   EXPECT_THAT(gslam::validate(*kept), IsEmpty());
 }
 
+// The map goes before the loop begins.
+TEST(SharedMap, LoopsMayBeOverWhatIsShownOnlyForThem) {
+  SharedMap shared(firstRound());
+  std::size_t count = 0;
+  for (const auto& item : std::make_shared<const Map>(firstRound())->points()) {
+    EXPECT_EQ(item.value.position[1], 0);
+    ++count;
+  }
+  EXPECT_EQ(count, kPoints);
+  for (const auto& item : firstRound().keyframes()) {
+    EXPECT_EQ(item.value.content->features.size(), 7u);
+  }
+  const auto latest = [&shared] { return shared.latest(); };
+  for (const auto& item : latest()->points()) {
+    if (std::uint32_t(item.id) == 0) {
+      writeRound(shared.edit(), 1);
+      shared.publish();  // what was shown before is gone but for the loop
+    }
+    ASSERT_EQ(item.value.position[1], 0);
+  }
+  auto place = firstRound().points().begin();  // as are range and map here
+  EXPECT_EQ((*++place).id, PointId(1));
+}
+
 }  // namespace

@@ -19,6 +19,7 @@
 namespace {
 
 using gslam::EdgeId;
+using gslam::Image;
 using gslam::Keyframe;
 using gslam::KeyframeId;
 using gslam::kNoPoint;
@@ -41,6 +42,9 @@ struct Model {
   std::map<KeyframeId, std::pair<SE3d, std::vector<PointId>>> keyframes;
   std::map<PointId, std::pair<Vec3d, std::vector<Observation>>> points;
   std::map<EdgeId, std::pair<KeyframeId, KeyframeId>> edges;
+  std::map<PointId, Vec3d> shapes;       // their sizes
+  std::map<PointId, Image> descriptors;  // with pixels of their own
+  std::map<PointId, std::uint32_t> labels;
 
   void forget(KeyframeId keyframe, std::uint32_t feature) {
     PointId& point = keyframes[keyframe].second[feature];
@@ -67,6 +71,21 @@ struct Model {
     const std::vector<Observation> seen = points[point].second;
     for (const Observation& by : seen) forget(by.keyframe, by.feature);
     points.erase(point);
+    shapes.erase(point);
+    descriptors.erase(point);
+    labels.erase(point);
+  }
+  // All features are of one camera.
+  void merge(PointId stays, PointId goes) {
+    const std::vector<Observation> seen = points[goes].second;
+    remove(goes);
+    for (const Observation& by : seen) {
+      const std::vector<Observation>& known = points[stays].second;
+      const bool is_seen = std::any_of(known.begin(), known.end(), [&](const Observation& other) {
+        return other.keyframe == by.keyframe;
+      });
+      if (!is_seen) observe(stays, by.keyframe, by.feature);
+    }
   }
 };
 
@@ -90,6 +109,17 @@ void expectSame(const Map& map, const Model& model) {
     const auto seen = map.observations(item.id);
     ASSERT_EQ(std::vector<Observation>(seen.begin(), seen.end()), point->second.second);
     observations += seen.size();
+    ASSERT_EQ(item.value.label, model.labels.at(item.id));
+    const auto shape = model.shapes.find(item.id);
+    ASSERT_EQ(map.shape(item.id) != nullptr, shape != model.shapes.end());
+    if (shape != model.shapes.end()) {
+      ASSERT_EQ(map.shape(item.id)->size, shape->second);
+    }
+    const auto row = model.descriptors.find(item.id);
+    ASSERT_EQ(map.descriptor(item.id) != nullptr, row != model.descriptors.end());
+    if (row != model.descriptors.end()) {
+      ASSERT_EQ(*map.descriptor(item.id), row->second);
+    }
     ++point;
   }
   ASSERT_EQ(map.observationCount(), observations);
@@ -114,7 +144,7 @@ class Twins {
   explicit Twins(unsigned seed) : random_(seed) {}
 
   void step() {
-    const std::uint32_t dice = random_.below(100);
+    const std::uint32_t dice = random_.below(115);
     if (dice < 6 || model.keyframes.size() < 2) return addKeyframe();
     if (dice < 30 || model.points.size() < 2) return addPoint();
     if (dice < 70) return observe();
@@ -123,7 +153,11 @@ class Twins {
     if (dice < 82) return addEdge();
     if (dice < 84 && !model.edges.empty()) return removeEdge();
     if (dice < 90) return move();
-    forget();
+    if (dice < 100) return forget();
+    if (dice < 106) return replace();
+    if (dice < 112) return describe();
+    if (dice < 114) return merge();
+    if (random_.below(20) == 0) transform();
   }
 
   Map map;
@@ -132,7 +166,10 @@ class Twins {
  private:
   void addKeyframe() {
     const std::size_t features = random_.below(20);
-    const Keyframe keyframe = random_.keyframe(features, false);
+    Keyframe keyframe = random_.keyframe(features, false);
+    gslam::KeyframeContent content = *keyframe.content;
+    for (gslam::Feature& feature : content.features) feature.camera = 0;
+    keyframe.content = std::make_shared<const gslam::KeyframeContent>(content);
     model.keyframes[map.add(keyframe)] =
         std::make_pair(keyframe.T_world_body, std::vector<PointId>(features, kNoPoint));
   }
@@ -143,6 +180,7 @@ class Twins {
     if (random_.below(200) == 0) id = PointId(std::uint32_t(id) + random_.below(200000));
     map.insert(id, point);
     model.points[id].first = point.position;
+    model.labels[id] = point.label;
   }
   void observe() {
     const KeyframeId keyframe = anyOf(model.keyframes, random_);
@@ -191,8 +229,83 @@ class Twins {
     map.setPose(keyframe, model.keyframes[keyframe].first);
   }
 
+  // A point by another; an edge by one with other ends.
+  void replace() {
+    const PointId id = anyOf(model.points, random_);
+    const MapPoint point = random_.point();
+    map.set(id, point);
+    model.points[id].first = point.position;
+    model.labels[id] = point.label;
+    if (model.edges.empty()) return;
+    const EdgeId edge = anyOf(model.edges, random_);
+    const KeyframeId a = anyOf(model.keyframes, random_), b = anyOf(model.keyframes, random_);
+    if (a == b) return;
+    map.set(edge, random_.edge(a, b));
+    model.edges[edge] = std::make_pair(a, b);
+  }
+  void describe() {
+    const PointId id = anyOf(model.points, random_);
+    const gslam::Shape shape = random_.shape();
+    const Image row =
+        random_.below(3) == 0 ? Image() : random_.image(3, 1, gslam::PixelType::u8, 2);
+    if (random_.below(3) != 0) {
+      map.setShape(id, shape);
+      model.shapes[id] = shape.size;
+    } else {
+      map.removeShape(id);
+      model.shapes.erase(id);
+    }
+    map.setDescriptor(id, row);
+    if (row.empty()) {
+      model.descriptors.erase(id);
+    } else {
+      model.descriptors[id] = row.clone();
+    }
+  }
+  void merge() {
+    const PointId stays = anyOf(model.points, random_), goes = anyOf(model.points, random_);
+    if (stays == goes) return;
+    map.merge(stays, goes);
+    model.merge(stays, goes);
+  }
+  // Without a turn, so that both are rounded alike.
+  void transform() {
+    const SIM3d S(SO3d(), {1, -2, 4}, random_.below(2) == 0 ? 2 : 0.5);
+    map.transform(S);
+    for (auto& one : model.keyframes) {
+      SE3d& pose = one.second.first;
+      pose = SE3d(pose.rotation(), S * pose.translation());
+    }
+    for (auto& one : model.points) one.second.first = S * one.second.first;
+    for (auto& one : model.shapes) one.second *= S.scale();
+  }
+
   RandomMap random_;
 };
+
+TEST(Map, WhatGoesWithAPointStaysInSnapshots) {
+  Map map;
+  const PointId id = map.add(MapPoint()), other = map.add(MapPoint());
+  gslam::Shape shape;
+  shape.size = {1, 2, 3};
+  const Image row = RandomMap(1).image(4, 1, gslam::PixelType::u8, 1);
+  for (const PointId one : {id, other}) {
+    map.setShape(one, shape);
+    map.setDescriptor(one, row);
+  }
+  const Map snapshot = map;
+  EXPECT_TRUE(map.remove(id));
+  EXPECT_EQ(map.shape(id), nullptr);
+  EXPECT_EQ(map.descriptor(id), nullptr);
+  ASSERT_NE(snapshot.shape(id), nullptr);
+  EXPECT_EQ(snapshot.shape(id)->size, shape.size);
+  ASSERT_NE(snapshot.descriptor(id), nullptr);
+  EXPECT_EQ(*snapshot.descriptor(id), row);
+  for (const Map* const one : {&snapshot, static_cast<const Map*>(&map)}) {
+    ASSERT_NE(one->shape(other), nullptr);
+    EXPECT_EQ(*one->descriptor(other), row);
+  }
+}
 
 TEST(Map, DoesWhatPlainContainersDo) {
   for (unsigned seed = 0; seed < 5; ++seed) {
@@ -513,14 +626,13 @@ TEST(MapCheck, SaysWhichNumbersAreWrong) {
   edge.information(0, 1) = 1;
   edge.scale = 0;
   map.add(edge);
-  EXPECT_THAT(
-      gslam::validate(map),
-      ElementsAre("keyframe 0 has a feature that is not finite",
-                  "point 0 has a normal that is not finite",
-                  "edge 0 has an information matrix with a number below 0 on its diagonal",
-                  "edge 1 has an information matrix that is not finite",
-                  "edge 2 has a scale that is not above 0",
-                  "edge 2 has an information matrix that is not symmetric"));
+  EXPECT_THAT(gslam::validate(map),
+              ElementsAre("keyframe 0 has a feature that is not finite",
+                          "point 0 has a normal that is not finite",
+                          "edge 0 has an information matrix with a number below 0 on its diagonal",
+                          "edge 1 has an information matrix that is not finite",
+                          "edge 2 has a scale that is not above 0",
+                          "edge 2 has an information matrix that is not symmetric"));
 }
 
 // Files have no place for them, so maps have none.

@@ -92,7 +92,7 @@ TEST(Ply, IsWrittenAsTextThatPeopleCanRead) {
   EXPECT_EQ(saved(map, options),
             "ply\n"
             "format ascii 1.0\n"
-            "comment GSLAM map, metres\n"
+            "comment GSLAM map\n"
             "element vertex 2\n"
             "property double x\n"
             "property double y\n"
@@ -147,7 +147,12 @@ TEST(Ply, FrustaLookWhereCamerasLook) {
   const std::string text = saved(map, options);
   EXPECT_THAT(text, HasSubstr("element vertex 6\n"));
   EXPECT_THAT(text, HasSubstr("element edge 8\n"));
-  const std::vector<MapPoint> points = parse(text);
+  EXPECT_EQ(parse(text).size(), 1u);  // the corners are no points
+  options.is_binary = true;
+  EXPECT_EQ(parse(saved(map, options)).size(), 1u);
+  std::string all = text;
+  all.replace(all.find("frustum"), 7, "unknown");
+  const std::vector<MapPoint> points = parse(all);
   ASSERT_EQ(points.size(), 6u);
   EXPECT_EQ(points[1].position, (Vec3d{0, 0, 1}));
   EXPECT_LT((points[2].position - Vec3d{-2, -1.5, 3}).norm(), 1e-12);
@@ -191,14 +196,14 @@ TEST(Ply, ReadsWhatOthersWrite) {
   const std::vector<MapPoint> points = parse(std::string(kHeader) +
                                              "3 0 1 2\r\n"
                                              "0\r\n"
-                                             "+3 2 1 1 .5 1. 255 0.5 300 9\r\n"
-                                             "\t6e0 0 -05 4 0 -1 0 1\n");
+                                             "+3 2 1 1 .5 1. 255 0.5 65535 9\r\n"
+                                             "\t6e0 0 -05 4 0 -1 25957 1\n");
   ASSERT_EQ(points.size(), 2u);
   EXPECT_EQ(points[0].position, (Vec3d{1, 0.5, 3}));
   EXPECT_EQ(points[0].color, (Color{255, 128, 255, 255}));
   EXPECT_EQ(points[0].normal, Vec3f{});
   EXPECT_EQ(points[1].position, (Vec3d{4, -5, 6}));
-  EXPECT_EQ(points[1].color, (Color{0, 0, 0, 255}));
+  EXPECT_EQ(points[1].color, (Color{0, 0, 101, 255}));
 }
 
 TEST(Ply, ReadsBothOrdersOfBytes) {

@@ -3,6 +3,7 @@
 #include <gslam/core/trajectory_file.h>
 #include <gslam/geometry/random.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <clocale>
 #include <cstdint>
@@ -144,9 +145,27 @@ TEST(TrajectoryFile, TheFormatIsFound) {
   EXPECT_EQ(of("#time(ns),p\n0,0,0,0,1,0,0,0"), TrajectoryFormat::euroc);
   EXPECT_THAT(problemOf("0,0,0,0,1,0,0,0"), AllOf(StartsWith("poses.txt:1:1: "), HasSubstr("TUM"),
                                                   HasSubstr("EuRoC"), HasSubstr("say which")));
+  EXPECT_EQ(of("1403715273262142976,0,0,0,1,0,0,0,0,0,0,0"), TrajectoryFormat::euroc);
+  EXPECT_EQ(of("1,0,0,0,0,1,0,0,0,0,1,0"), TrajectoryFormat::kitti);
   EXPECT_THAT(problemOf("1 2 3"), HasSubstr("the line has 3 numbers, expected a line of TUM"));
   EXPECT_THAT(problemOf("\n# x\n  1\n"), StartsWith("poses.txt:3:3: the line has 1 number, "));
   EXPECT_THAT(problemOf("hello world"), HasSubstr("'hello', expected a finite number"));
+}
+
+TEST(TrajectoryFile, EightNumbersWithCommasAreNotGuessedWhereTumHasNanoseconds) {
+  TrajectoryFileOptions options;
+  options.tum_stamps = StampUnit::nanoseconds;
+  const std::string line = "1403715273262142976,0,0,0,1,0,0,0\n";
+  for (const std::string& text : {line, "#timestamp [ns],p\n" + line}) {
+    EXPECT_THAT(problemWhen([&] { parseTrajectory(text, "poses.txt", options); }),
+                AllOf(HasSubstr("TUM in nanoseconds"), HasSubstr("say which format")));
+  }
+  for (const TrajectoryFormat format : {TrajectoryFormat::tum, TrajectoryFormat::euroc}) {
+    options.format = format;
+    const Trajectory t = parseTrajectory(line, "poses.txt", options);
+    EXPECT_EQ(t.front().stamp, 1403715273262142976);
+    EXPECT_EQ(t.front().pose.rotation().w(), format == TrajectoryFormat::euroc ? 1 : 0);
+  }
 }
 
 TEST(TrajectoryFile, FormsOfTextAreTaken) {
@@ -382,6 +401,19 @@ TEST_F(OnDisk, FilesComeBack) {
   expectSame(gslam::readTumTrajectory(file), t);
   std::ifstream left_over(file + ".0.tmp");
   EXPECT_FALSE(left_over.is_open());
+}
+
+TEST_F(OnDisk, ALinkStaysOneAndADeviceToo) {
+  const Trajectory t = drawn(10, 6);
+  const std::string file = path("file"), link = path("link");
+  gslam::writeTrajectory(file, Trajectory());
+  ASSERT_EQ(::symlink(file.c_str(), link.c_str()), 0);
+  gslam::writeTrajectory(link, t);
+  expectSame(gslam::readTumTrajectory(file), t);
+  gslam::writeStamps(link, t);
+  EXPECT_EQ(gslam::readStamps(file).size(), t.size());
+  EXPECT_NO_THROW(gslam::writeTrajectory("/dev/null", t));
+  EXPECT_TRUE(std::ifstream("/dev/null"));
 }
 
 TEST_F(OnDisk, KittiGetsItsTimesFromTheOtherFile) {

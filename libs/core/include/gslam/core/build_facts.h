@@ -131,15 +131,16 @@ struct LayoutOf<T, Ts...> {
 };
 
 // Of maps also the inside, which both sides walk through.
-using BorderLayout = LayoutOf<
-    Svar, Messenger, Image, CameraImage, Frame, ImuSample, ImuCalibration, GnssSample, CameraSensor,
-    SensorRig, SensorNeeds, Map, Trajectory, DatasetInfo, TrackedPose, SlamSetup, ApplicationSetup,
-    DatasetFactory, SlamFactory, ApplicationFactory, Registry, Feature, KeyframeContent, Keyframe,
-    KeyframeRow, Observation, MapPoint, Shape, PoseEdge, CowOwner, Cow<std::vector<PointId>>,
-    MapLayout::ChunkSize, MapLayout::PageSize, RecordChunk<KeyframeRow>, RecordChunk<MapPoint>,
-    ListChunk<Observation>, MapLayout::Place, MapLayout::KeyframePage, MapLayout::KeyframeNode,
-    MapLayout::PointPage, MapLayout::PointNode, MapLayout::ObservationPage,
-    MapLayout::ObservationNode, MapLayout::PointsSeenNode>;
+using BorderLayout =
+    LayoutOf<Svar, Messenger, Image, CameraImage, Frame, ImuSample, ImuCalibration, GnssSample,
+             CameraSensor, SensorRig, SensorNeeds, Map, Trajectory, DatasetInfo, TrackedPose,
+             SlamSetup, ApplicationSetup, DatasetFactory, SlamFactory, ApplicationFactory, Registry,
+             Feature, KeyframeContent, Keyframe, KeyframeRow, Observation, MapPoint, Shape,
+             PoseEdge, CowOwner, Cow<std::vector<PointId>>, MapLayout::ChunkSize,
+             MapLayout::PageSize, RecordChunk<KeyframeRow>, RecordChunk<MapPoint>,
+             ListChunk<Observation>, MapLayout::Place, MapLayout::KeyframePage,
+             MapLayout::KeyframeNode, MapLayout::PointPage, MapLayout::PointNode,
+             MapLayout::ObservationPage, MapLayout::ObservationNode, MapLayout::PointsSeenNode>;
 
 }  // namespace detail
 

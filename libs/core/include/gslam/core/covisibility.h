@@ -148,7 +148,8 @@ inline std::vector<CovisibleEdge> covisibilityGraph(const Map& map, std::uint32_
   return edges;
 }
 
-/// The keyframes at the other ends of a keyframe's edges, by id, each once.
+/// The keyframes at the other ends of a keyframe's edges, by id, each once; none for a keyframe
+/// that is not in the map.
 inline std::vector<KeyframeId> neighbours(const Map& map, KeyframeId id) {
   std::vector<KeyframeId> result;
   for (const EdgeId edge_id : map.edgesOf(id)) {

@@ -223,7 +223,7 @@ class Map {
     insert(id, edge);
   }
 
-  /// The extent of a point; null where it has none.
+  /// The extent of a point; null where it has none, or is not in the map.
   const Shape* shape(PointId id) const noexcept { return shapes_.find(std::uint32_t(id)); }
   /// Gives a point an extent.
   /// @throws ArgumentError when there is no such point
@@ -231,11 +231,11 @@ class Map {
     at(id);
     shapes_.set(std::uint32_t(id), shape, owner_);
   }
-  /// Takes it away.
+  /// Takes it away, where there is one.
   void removeShape(PointId id) { shapes_.erase(std::uint32_t(id), owner_); }
 
   /// The descriptor of a point: an image of one row, such as a view of a row of
-  /// KeyframeContent::descriptors; null where it has none.
+  /// KeyframeContent::descriptors; null where it has none, or is not in the map.
   const Image* descriptor(PointId id) const noexcept {
     return descriptors_.find(std::uint32_t(id));
   }
@@ -251,7 +251,7 @@ class Map {
     }
   }
 
-  /// Who sees a point, in the order it was said.
+  /// Who sees a point, in the order it was said; nobody where it is not in the map.
   Span<const Observation> observations(PointId id) const noexcept {
     return observations_.list(std::uint32_t(id));
   }
@@ -268,7 +268,7 @@ class Map {
     checkFeature(id, feature, points.size());
     return points[feature];
   }
-  /// The edges of a keyframe, whichever end it is.
+  /// The edges of a keyframe, whichever end it is; none where it is not in the map.
   Span<const EdgeId> edgesOf(KeyframeId id) const noexcept {
     return edge_lists_.list(std::uint32_t(id));
   }
@@ -396,9 +396,9 @@ class Map {
   // Files have no place for kinds that are none.
   static void checkKind(std::uint8_t kind, std::uint8_t end, const char* what) {
     if (kind < end) return;
-    throw ArgumentError(std::string("kind of ") + what, "is " + std::to_string(kind) +
-                                                            ", expected 0 to " +
-                                                            std::to_string(end - 1));
+    throw ArgumentError(
+        std::string("kind of ") + what,
+        "is " + std::to_string(kind) + ", expected 0 to " + std::to_string(end - 1));
   }
   static void checkKind(ImageKind kind) {
     checkKind(std::uint8_t(kind), detail::kImageKinds, "image");

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 /// @file
@@ -47,7 +48,7 @@
 ///     END    u64 number of the sections before this one
 ///
 ///     text   = u32 length  u8[length] UTF-8
-///     pose   = f64[7] tx ty tz qx qy qz qw
+///     pose   = f64[7] tx ty tz qx qy qz qw, read to the bit where the norm of q is 1 within 1e-6
 ///     camera = text model, empty for none; otherwise followed by
 ///              i32 width  i32 height  u32 n  f64[n] parameters, in the order of Camera
 ///     image  = u32 width  u32 height  u16 channels  u8 type  u8 0
@@ -73,7 +74,10 @@ struct BytesSink {
 
 /// Writes a map into a file, in one step: others see the old file or the new, and a failure leaves
 /// the old one as it was. Maps that are equal give the same bytes.
-/// @throws FileError when it cannot be written
+///
+/// A symbolic link stays one, and what it leads to is replaced; a file that is there keeps its
+/// mode. What is no ordinary file, such as a pipe, is written to as it is.
+/// @throws FileError when it cannot be written, ArgumentError when a rotation is not finite
 inline void saveMap(const std::string& path, const Map& map) {
   detail::NewFile file(path);
   detail::MapWriter<detail::NewFile>(map, file).write();
@@ -81,8 +85,8 @@ inline void saveMap(const std::string& path, const Map& map) {
 }
 
 /// Reads a map that saveMap() wrote. No count in it is believed: what it takes is about what the
-/// map takes, whatever the file says. (Ids that are far apart cost more, up to 100 times the file
-/// and a few megabytes.)
+/// map takes, whatever the file says. A map takes more where its ids are far apart: up to 200 times
+/// the file and 16 MB; who reads files of strangers bounds their size by that.
 /// @throws FileError when it cannot be read, ParseError when it is no map, has another version, is
 ///   damaged or not complete; it names the file and the byte
 inline Map loadMap(const std::string& path) {
@@ -91,10 +95,11 @@ inline Map loadMap(const std::string& path) {
 }
 
 /// What saveMap() writes, in memory.
+/// @throws ArgumentError as saveMap()
 inline std::vector<std::uint8_t> mapToBytes(const Map& map) {
   detail::BytesSink sink;
   detail::MapWriter<detail::BytesSink>(map, sink).write();
-  return sink.bytes;
+  return std::move(sink.bytes);  // a member is not moved by itself
 }
 
 /// What loadMap() reads, from memory.

@@ -6,6 +6,7 @@
 #include <gslam/core/map_types.h>
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 /// @file
@@ -35,10 +36,12 @@ const Record& valueOf(const Record& record) noexcept {
 template <class Id, class Value>
 struct MapItem {
   Id id;               ///< its name
-  const Value& value;  ///< lives until the map changes
+  const Value& value;  ///< lives until the map changes, or it and the range are gone
 };
 
-/// All keyframes, points or edges of a map, in the order of their ids. Valid until the map changes.
+/// All keyframes, points or edges of a map, in the order of their ids. Valid until the map changes;
+/// the map may go, as that of `for (const auto& item : shared.latest()->points())` does before the
+/// loop begins: ranges and their iterators keep alive what they go through.
 ///
 ///     for (const auto& item : map.points()) use(item.id, item.value.position);
 template <class Id, class Value, class Row = Value>
@@ -48,7 +51,8 @@ class MapRange {
   class Iterator {
    public:
     /// Used by MapRange.
-    explicit Iterator(const typename detail::RecordTable<Row>::Iterator& place) : place_(place) {}
+    explicit Iterator(typename detail::RecordTable<Row>::Iterator place)
+        : place_(std::move(place)) {}
     /// What it points to.
     MapItem<Id, Value> operator*() const noexcept {
       return MapItem<Id, Value>{Id(place_.id()), detail::valueOf(place_.record())};
@@ -71,15 +75,15 @@ class MapRange {
   };
 
   /// Used by Map.
-  explicit MapRange(const detail::RecordTable<Row>& table) : table_(&table) {}
+  explicit MapRange(const detail::RecordTable<Row>& table) : table_(table) {}
 
-  Iterator begin() const { return Iterator(table_->begin()); }  ///< the first
-  Iterator end() const { return Iterator(table_->end()); }      ///< behind the last
-  std::size_t size() const noexcept { return table_->size(); }  ///< how many there are
-  bool empty() const noexcept { return table_->size() == 0; }   ///< whether there is none
+  Iterator begin() const { return Iterator(table_.begin()); }  ///< the first
+  Iterator end() const { return Iterator(table_.end()); }      ///< behind the last
+  std::size_t size() const noexcept { return table_.size(); }  ///< how many there are
+  bool empty() const noexcept { return table_.size() == 0; }   ///< whether there is none
 
  private:
-  const detail::RecordTable<Row>* table_;
+  detail::RecordTable<Row> table_;
 };
 
 }  // namespace v1

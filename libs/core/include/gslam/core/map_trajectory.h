@@ -29,8 +29,7 @@ inline std::vector<KeyframePose> keyframePoses(const Map& map) {
   std::vector<KeyframePose> poses;
   poses.reserve(map.keyframes().size());
   for (const auto& item : map.keyframes()) {
-    poses.push_back(
-        KeyframePose{StampedPose{item.value.stamp, item.value.T_world_body}, item.id});
+    poses.push_back(KeyframePose{StampedPose{item.value.stamp, item.value.T_world_body}, item.id});
   }
   std::stable_sort(poses.begin(), poses.end(), [](const KeyframePose& a, const KeyframePose& b) {
     return a.pose.stamp < b.pose.stamp;

@@ -25,7 +25,8 @@ struct PlyOptions {
   bool has_keyframes = true;  ///< an element "keyframe": time in seconds, x y z qx qy qz qw of the
                               ///< body
   double frustum_depth = 0;   ///< above 0: a pyramid of that height for each camera of each
-                              ///< keyframe, of vertices behind the points and of elements "edge"
+                              ///< keyframe, of vertices behind the points, whose property
+                              ///< "frustum" is 1, and of elements "edge"
 };
 
 /// Writes the points of a map, in the order of their ids, into a file, in one step. Positions are
@@ -42,7 +43,8 @@ inline void savePly(const std::string& path, const Map& map,
 }
 
 /// The vertices of a PLY file, as text or in either order of bytes: positions, and where there are
-/// any, normals and colours. All else in it is skipped.
+/// any, normals and colours (of floats 0 to 1, of 16 bits without sign 0 to 65535, otherwise 0 to
+/// 255). All else in it is skipped, also the vertices of pyramids that savePly() added.
 /// @param bytes   all of the file
 /// @param source  what stands for the file's name in errors
 /// @throws ParseError when it breaks the rules of the format, ends too early or has no vertices

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -58,8 +59,14 @@ class PointIndex {
   std::size_t size() const noexcept { return entries_.size(); }
 
   /// The points in a box, its border included, in no order.
-  /// @param least, most  its corners
+  /// @param least, most  its corners; numbers may be infinite
+  /// @throws ArgumentError when one is not a number
   std::vector<PointId> inBox(const Vec3d& least, const Vec3d& most) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (std::isnan(least[i]) || std::isnan(most[i])) {
+        throw ArgumentError("corner of the box", "has an element that is not a number");
+      }
+    }
     std::vector<PointId> found;
     search(
         0, entries_.size(),
@@ -75,7 +82,10 @@ class PointIndex {
 
   /// The points within a distance, in no order.
   /// @param radius  0 or more; infinite: all
+  /// @throws ArgumentError when the centre is not finite, or the radius below 0 or not a number
   std::vector<NearPoint> inRadius(const Vec3d& centre, double radius) const {
+    checkFinite("centre", centre);
+    checkDistance("radius", radius);
     std::vector<NearPoint> found;
     search(
         0, entries_.size(),
@@ -90,7 +100,9 @@ class PointIndex {
   }
 
   /// The k nearest points, the nearest first; fewer where there are fewer.
+  /// @throws ArgumentError when the centre is not finite
   std::vector<NearPoint> nearest(const Vec3d& centre, std::size_t k) const {
+    checkFinite("centre", centre);
     std::vector<NearPoint> heap;  // the farthest first
     if (k != 0) searchNearest(0, entries_.size(), centre, k, heap);
     std::sort_heap(heap.begin(), heap.end(), isNearer);
@@ -99,10 +111,17 @@ class PointIndex {
 
   /// The points that a camera has in its image, whatever lies before them, in no order.
   /// @param T_world_camera  its pose
-  /// @param max_distance    from the camera
+  /// @param max_distance    from the camera, 0 or more
+  /// @throws ArgumentError when the camera is none, the pose is not finite, or the distance is
+  /// below
+  ///   0 or not a number
   std::vector<VisiblePoint> visible(
       const Camera& camera, const SE3d& T_world_camera,
       double max_distance = std::numeric_limits<double>::infinity()) const {
+    if (!camera.isValid()) throw ArgumentError("camera", "is none, expected one with a model");
+    checkFinite("T_world_camera", T_world_camera.translation());
+    checkFinite("T_world_camera", T_world_camera.rotation().quaternion());
+    checkDistance("max_distance", max_distance);
     std::vector<VisiblePoint> found;
     const SE3d T_camera_world = T_world_camera.inverse();
     const Vec3d centre = T_world_camera.translation();
@@ -122,6 +141,18 @@ class PointIndex {
   }
 
  private:
+  template <std::size_t N>
+  static void checkFinite(const char* name, const Vec<double, N>& v) {
+    for (std::size_t i = 0; i < N; ++i) {
+      if (!std::isfinite(v[i])) throw ArgumentError(name, "is not finite");
+    }
+  }
+  static void checkDistance(const char* name, double distance) {
+    if (!(distance >= 0)) {
+      throw ArgumentError(name, "is " + std::to_string(distance) + ", expected 0 or more");
+    }
+  }
+
   // Each range of entries is a tree: its middle entry splits it along its axis, unless it is small.
   struct Entry {
     Vec3d position;

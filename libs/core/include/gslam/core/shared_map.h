@@ -49,7 +49,8 @@ class SharedMap {
     return shown;  // `last` may be what frees the map before: not under the lock
   }
 
-  /// The map as it was shown last; never null.
+  /// The map as it was shown last; never null. Who asks for a part of it by find(), at() or
+  /// observations() keeps the pointer meanwhile; ranges such as points() keep what they go through.
   std::shared_ptr<const Map> latest() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return latest_;

@@ -86,7 +86,8 @@ class Slam {
   /// handled one by one waits for it.
   virtual void feed(const std::shared_ptr<const Frame>& frame) = 0;
 
-  /// The map as it is, which does not change any more; null where the system has none.
+  /// The map as it is, which does not change any more; null where the system has none. It, and
+  /// what find() and the like give of it, live as long as the pointer is kept.
   virtual std::shared_ptr<const Map> map() = 0;
 
   /// No frame comes any more: ends what is still in work, such as a last optimization. map() may

@@ -75,6 +75,7 @@ class SlamThread : public Slam {
       if (when_busy_ == WhenBusy::wait) {
         changed_.wait(lock, [this] { return frames_.size() < room_ || error_ != nullptr; });
       }
+      if (error_ != nullptr) ++dropped_;
       rethrow();
       std::shared_ptr<const Frame> added = frame;
       while (frames_.size() >= room_) {

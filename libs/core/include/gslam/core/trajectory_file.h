@@ -80,10 +80,11 @@ constexpr double kMatrixTolerance = 1e-3;
 /// @{
 /// Reads a trajectory.
 ///
-/// The format is found by the first line with numbers: 12 are KITTI, 8 without commas are TUM, 9 or
-/// more with commas are EuRoC. 8 with commas are EuRoC where the stamp is 1e15 or more or a comment
-/// has "ns", TUM where the stamp has a point, and else refused: nobody should guess which number is
-/// w.
+/// The format is found by the first line with numbers: 12 are KITTI (but EuRoC where they have
+/// commas and the first is a whole number of 1e15 or more), 8 without commas are TUM, 9 or more
+/// with commas are EuRoC. 8 with commas are EuRoC where the stamp is 1e15 or more or a comment has
+/// "ns", TUM where the stamp has a point, and else refused, as they are without a point where
+/// TrajectoryFileOptions::tum_stamps are not seconds: nobody should guess which number is w.
 ///
 /// KITTI files have no stamps: each pose gets the number of its frame, from 0 on, **which is no
 /// time**; readKittiTrajectory() gives them times.
@@ -129,7 +130,7 @@ inline std::vector<std::int64_t> readStamps(const std::string& path);
 
 /// @{
 /// Writes a trajectory. A file appears under its name when it is whole: it is written beside it,
-/// and renamed.
+/// and renamed. Links stay, and lead to the new content; pipes and devices are written to.
 /// @param trajectory  may be empty
 /// @param format      not `any`; KITTI's leaves out the stamps, see writeStamps()
 /// @throws FileError when it cannot be written

@@ -292,11 +292,11 @@ class PlyReader {
   }
 
   // Where the numbers of a vertex go.
-  enum Role { kX, kY, kZ, kNx, kNy, kNz, kRed, kGreen, kBlue, kAlpha, kNone };
+  enum Role { kX, kY, kZ, kNx, kNy, kNz, kRed, kGreen, kBlue, kAlpha, kFrustum, kNone };
 
   static Role roleOf(const PlyProperty& property) {
-    static const char* const kNames[] = {"x",  "y",   "z",     "nx",   "ny",
-                                         "nz", "red", "green", "blue", "alpha"};
+    static const char* const kNames[] = {"x",   "y",     "z",    "nx",    "ny",     "nz",
+                                         "red", "green", "blue", "alpha", "frustum"};
     std::string name = property.name;
     if (name.compare(0, 8, "diffuse_") == 0) name.erase(0, 8);
     for (int i = 0; i < kNone; ++i) {
@@ -316,12 +316,19 @@ class PlyReader {
     if (!has(kX) || !has(kY) || !has(kZ)) in_.fail("has vertices without x, y and z");
     const bool is_colored = has(kRed) && has(kGreen) && has(kBlue);
     std::vector<MapPoint> points(static_cast<std::size_t>(element.count));
-    for (MapPoint& point : points) readVertex(element, roles, is_colored, point);
+    std::size_t size = 0;
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+      points[size] = MapPoint();
+      if (readVertex(element, roles, is_colored, points[size])) ++size;
+    }
+    points.resize(size);
     return points;
   }
 
-  void readVertex(const PlyElement& element, const std::vector<Role>& roles, bool is_colored,
+  // False for what is no point, but the corner of a camera's pyramid.
+  bool readVertex(const PlyElement& element, const std::vector<Role>& roles, bool is_colored,
                   MapPoint& point) {
+    bool is_point = true;
     point.color.alpha = is_colored ? 255 : 0;
     for (std::size_t i = 0; i < roles.size(); ++i) {
       const PlyProperty& property = element.properties[i];
@@ -334,11 +341,19 @@ class PlyReader {
         point.position[roles[i]] = value;
       } else if (roles[i] < kRed) {
         point.normal[std::size_t(roles[i] - kNx)] = static_cast<float>(value);
+      } else if (roles[i] == kFrustum) {
+        is_point = value == 0;
       } else if (is_colored) {
-        const bool is_real = property.type >= PlyType::f32;
-        setColor(point.color, roles[i], is_real ? 255 * value : value);
+        setColor(point.color, roles[i], value * colorScale(property.type));
       }
     }
+    return is_point;
+  }
+
+  // To 0 to 255 from what a type has.
+  static double colorScale(PlyType type) noexcept {
+    if (type >= PlyType::f32) return 255;
+    return type == PlyType::u16 ? 1 / 257.0 : 1;
   }
 
   static void setColor(Color& color, Role role, double value) noexcept {

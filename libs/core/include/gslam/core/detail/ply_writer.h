@@ -134,13 +134,14 @@ class PlyWriter {
     const auto count = [](std::size_t n) { return std::to_string(n) + "\n"; };
     std::string header = "ply\nformat ";
     header += is_binary_ ? "binary_little_endian" : "ascii";
-    header += " 1.0\ncomment GSLAM map, metres\nelement vertex " +
+    header += " 1.0\ncomment GSLAM map\nelement vertex " +
               count(map_.points().size() + 5 * frusta_.size());
     header += "property double x\nproperty double y\nproperty double z\n";
     if (has_normals_) header += "property float nx\nproperty float ny\nproperty float nz\n";
     if (has_colors_) {
       header += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     }
+    if (!frusta_.empty()) header += "property uchar frustum\n";  // 1: no point of the map
     if (has_keyframes_) {
       header += "element keyframe " + count(map_.keyframes().size());
       for (const char* const name : {"time", "x", "y", "z", "qx", "qy", "qz", "qw"}) {
@@ -155,7 +156,8 @@ class PlyWriter {
     out_.bytes(header.data(), header.size());
   }
 
-  void writeVertex(const Vec3d& position, const Vec3f& normal, const Color& color) {
+  void writeVertex(const Vec3d& position, const Vec3f& normal, const Color& color,
+                   bool is_frustum) {
     line_.reals(position);
     if (has_normals_) line_.reals(normal);
     if (has_colors_) {
@@ -164,12 +166,15 @@ class PlyWriter {
       line_.byte(is_known ? color.green : 255);
       line_.byte(is_known ? color.blue : 255);
     }
+    if (!frusta_.empty()) line_.byte(is_frustum ? 1 : 0);
     endLine();
   }
-  void writePoint(const MapPoint& point) { writeVertex(point.position, point.normal, point.color); }
+  void writePoint(const MapPoint& point) {
+    writeVertex(point.position, point.normal, point.color, false);
+  }
   void writeCorners(const Frustum& frustum) {
     for (const Vec3d& corner : frustum.points) {
-      writeVertex(corner, Vec3f{}, Color{0, 128, 255, 255});
+      writeVertex(corner, Vec3f{}, Color{0, 128, 255, 255}, true);
     }
   }
   void writeKeyframe(const Keyframe& keyframe) {

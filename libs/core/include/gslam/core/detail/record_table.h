@@ -75,7 +75,7 @@ class RecordTable {
   class Iterator {
    public:
     Iterator(const PagedTable<Chunk>& chunks, std::uint32_t number)
-        : chunks_(&chunks), number_(number), slot_(0) {
+        : chunks_(chunks), number_(number), slot_(0) {
       settle();
     }
     std::uint32_t id() const noexcept { return number_ * kChunkSize + slot_; }
@@ -93,12 +93,12 @@ class RecordTable {
 
    private:
     void settle() noexcept {
-      number_ = chunks_->next(number_);
-      chunk_ = chunks_->find(number_);
+      number_ = chunks_.next(number_);
+      chunk_ = chunks_.find(number_);
       if (chunk_ != nullptr) slot_ = chunk_->next(0);
     }
 
-    const PagedTable<Chunk>* chunks_;
+    PagedTable<Chunk> chunks_;  // shared, so that it lives as long as it is walked through
     const Chunk* chunk_ = nullptr;
     std::uint32_t number_;
     std::uint32_t slot_;

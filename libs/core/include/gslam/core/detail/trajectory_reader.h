@@ -175,20 +175,31 @@ inline bool mentionsNanoseconds(const std::string& text, const char* first_line)
          head.find("nanosec") != std::string::npos;
 }
 
+/// Whether a word is a stamp that can only be in nanoseconds where seconds are the other choice.
+inline bool isInNanoseconds(const std::string& stamp) {
+  const ParsedStamp whole = parseStamp(stamp.data(), stamp.data() + stamp.size(), 0);
+  return whole.status == StampStatus::ok && whole.value >= 1000000000000000;
+}
+
 /// Of a line of eight numbers with commas, which both TUM and EuRoC may be.
 inline TrajectoryFormat formatOfEight(const FieldReader& in, const std::string& stamp,
-                                      bool mentions_nanoseconds) {
-  const ParsedStamp whole = parseStamp(stamp.data(), stamp.data() + stamp.size(), 0);
-  const bool is_large = whole.status == StampStatus::ok && whole.value >= 1000000000000000;
-  if (is_large || mentions_nanoseconds) return TrajectoryFormat::euroc;
-  if (stamp.find('.') != std::string::npos) return TrajectoryFormat::tum;
+                                      StampUnit unit, bool mentions_nanoseconds) {
+  const bool is_euroc = isInNanoseconds(stamp) || mentions_nanoseconds;
+  if (!is_euroc && stamp.find('.') != std::string::npos) return TrajectoryFormat::tum;
+  if (unit != StampUnit::seconds) {
+    in.fail(in.place(), std::string("the line may be TUM in ") + stampUnitName(unit) +
+                            " (w is the last number) or EuRoC (w is the fifth): say which format "
+                            "it is");
+  }
+  if (is_euroc) return TrajectoryFormat::euroc;
   in.fail(in.place(), "the stamp " + quotedText(stamp) +
                           " may be in seconds (TUM, w is the last number) or nanoseconds (EuRoC, w "
                           "is the fifth): say which format it is");
 }
 
 /// For lines of a number of numbers.
-inline TrajectoryFormat formatOf(FieldReader& in, const std::string& text) {
+/// @param unit  that of stamps where it is TUM
+inline TrajectoryFormat formatOf(FieldReader& in, const std::string& text, StampUnit unit) {
   const char* const line = in.place();
   const std::string stamp = in.word();
   const char* const line_end = std::find(line, text.data() + text.size(), '\n');
@@ -196,9 +207,10 @@ inline TrajectoryFormat formatOf(FieldReader& in, const std::string& text) {
   FieldReader words = in;
   while (!words.isLineEnd()) words.skipWord();
   const std::size_t count = words.count();
+  if (count == 12 && has_commas && isInNanoseconds(stamp)) return TrajectoryFormat::euroc;
   if (count == 12) return TrajectoryFormat::kitti;
   if (count == 8 && !has_commas) return TrajectoryFormat::tum;
-  if (count == 8) return formatOfEight(in, stamp, mentionsNanoseconds(text, line));
+  if (count == 8) return formatOfEight(in, stamp, unit, mentionsNanoseconds(text, line));
   if (count > 8 && has_commas) return TrajectoryFormat::euroc;
   (void)in.number("the first word");
   in.fail(line, "the line has " + std::to_string(count) + (count == 1 ? " number" : " numbers") +
@@ -233,7 +245,7 @@ inline Trajectory kittiWith(const std::vector<std::int64_t>& stamps, const std::
 inline TrajectoryFormat detectTrajectoryFormat(const std::string& text, const std::string& source) {
   detail::FieldReader in(text, source, detail::expectedLine(TrajectoryFormat::any));
   if (!in.nextLine()) detail::refuseEmpty(source, TrajectoryFormat::any);
-  return detail::formatOf(in, text);
+  return detail::formatOf(in, text, StampUnit::seconds);
 }
 
 inline Trajectory parseTrajectory(const std::string& text, const std::string& source,
@@ -241,7 +253,7 @@ inline Trajectory parseTrajectory(const std::string& text, const std::string& so
   TrajectoryFormat format = options.format;
   if (format == TrajectoryFormat::any) {
     detail::FieldReader in(text, source, detail::expectedLine(format));
-    if (in.nextLine()) format = detail::formatOf(in, text);
+    if (in.nextLine()) format = detail::formatOf(in, text, options.tum_stamps);
   }
   detail::PoseLines lines = detail::readLines(text, source, format, options.tum_stamps);
   if (lines.poses.empty() && !options.may_be_empty) detail::refuseEmpty(source, options.format);
