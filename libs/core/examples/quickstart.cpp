@@ -40,8 +40,8 @@ int main() {
   gslam::MemoryDataset dataset(gslam::DatasetInfo(), std::move(frames));
 
   const gslam::Messenger messenger;
-  const gslam::Subscriber viewer = messenger.subscribe<gslam::TrackedPose>(
-      "/optimist/pose", [](const gslam::TrackedPose& pose) {
+  const gslam::Subscriber viewer =
+      messenger.subscribe<gslam::TrackedPose>("/optimist/pose", [](const gslam::TrackedPose& pose) {
         std::cout << "frame " << pose.frame << " at " << pose.T_world_body << '\n';
       });
 
