@@ -101,6 +101,13 @@ void Session::declare(Options& options) {
       .arg<gslam::Svar>("dataset-param", gslam::Svar::object(),
                         "parameters of the dataset, as --dataset-param.NAME VALUE")
       .group("What");
+  options.arg<std::string>("application", "", "one to run beside, such as a viewer")
+      .shortName("a")
+      .group("What");
+  options
+      .arg<gslam::Svar>("application-param", gslam::Svar::object(),
+                        "its parameters, as --application-param.NAME VALUE")
+      .group("What");
   options.arg<bool>("isolate", false, "run the SLAM system in a process of its own").group("How");
   options.arg<double>("timeout", 60, "seconds an isolated system may take for a frame")
       .range(0.001, 86400)
@@ -130,6 +137,7 @@ Session::Session(const Options& options) : play_(playOptions(options)) {
                                                                     {"format", info.format},
                                                                     {"parameters", given}})}});
   if (!options.get<std::string>("slam").empty()) makeSlam(options);
+  if (!options.get<std::string>("application").empty()) startApplication(options);
   for (const char* const option : {"pace", "speed", "first", "count", "timeout"}) {
     protocol_.set(option, options.get<gslam::Svar>(option));
   }
@@ -166,6 +174,13 @@ void Session::makeIsolatedSlam(const Options& options) {
   slam_ = std::move(slam);
 }
 
+void Session::startApplication(const Options& options) {
+  const gslam::ApplicationFactory factory =
+      plugins_.application(options.get<std::string>("application"));
+  const gslam::Svar parameters = complete(factory.parameters, options, "application-param");
+  beside_ = std::make_unique<Beside>(factory, gslam::ApplicationSetup{parameters, messenger_});
+}
+
 void Session::checkSensors(const gslam::SlamFactory& factory) const {
   const std::string missing = gslam::missingSensors(factory.needs, dataset_->info().sensors);
   if (missing.empty()) return;
@@ -178,12 +193,13 @@ gslam::Svar Session::protocol() const {
 }
 
 gslam::RunResult Session::play(const std::function<void(const gslam::RunResult&)>& on_played) {
-  const StdoutGuard guard;  // what SLAM systems print
+  const StdoutGuard guard;  // what SLAM systems and applications print
   Progress progress;
   progress.follow(messenger_);
   if (slam_ == nullptr) {
     gslam::RunResult result;
     result.play = player_->play(play_);
+    beside_.reset();
     return result;
   }
   gslam::RunSetup setup;
@@ -191,7 +207,9 @@ gslam::RunResult Session::play(const std::function<void(const gslam::RunResult&)
   setup.parameters = parameters_;
   setup.play = play_;
   setup.on_played = on_played;
-  return gslam::runSlam(*slam_, *player_, *dataset_, setup, messenger_);
+  gslam::RunResult result = gslam::runSlam(*slam_, *player_, *dataset_, setup, messenger_);
+  beside_.reset();  // while what it prints is guarded
+  return result;
 }
 
 void Session::stop() {

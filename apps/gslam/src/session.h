@@ -10,6 +10,7 @@
 #include <mutex>
 #include <string>
 
+#include "beside.h"
 #include "options.h"
 
 namespace app {
@@ -41,6 +42,7 @@ class Session {
  private:
   void makeSlam(const Options& options);
   void makeIsolatedSlam(const Options& options);
+  void startApplication(const Options& options);
   void checkSensors(const gslam::SlamFactory& factory) const;
 
   const gslam::PlayOptions play_;
@@ -51,6 +53,7 @@ class Session {
   gslam::Svar parameters_;
   std::unique_ptr<gslam::Slam> slam_;
   const gslam::Messenger messenger_;
+  std::unique_ptr<Beside> beside_;
   std::unique_ptr<gslam::Player> player_;
 };
 

@@ -197,6 +197,12 @@ class Run(Folder):
             texts.append((out / "trajectory.txt").read_text())
         self.assertEqual(texts[0], texts[1])
 
+    def test_an_application_runs_beside(self):
+        result = self.check(gslam("play", "carousel", "-s", "dead_reckoning", "-a", "pose_printer",
+                                  "--application-param.every", 100))
+        self.assertIn("/dead_reckoning/pose 100 ", result.stderr)
+        self.check(gslam("play", "carousel", "-a", "pose_printe"), 1, err="pose_printer")
+
     def test_a_part(self):
         report = json.loads(gslam("play", "-d", "carousel", "-s", "dead_reckoning", "--first", 10,
                                   "--count", 20, "--json").stdout)
