@@ -118,6 +118,8 @@ class ConnectedParts {
 }  // namespace detail
 
 /// The keyframes that see points that a keyframe sees, those that share most first.
+/// @param map    with the keyframes
+/// @param id     the keyframe
 /// @param least  points that must be shared, 1 or more
 /// @throws ArgumentError when there is no such keyframe
 inline std::vector<Covisible> covisibleKeyframes(const Map& map, KeyframeId id,
@@ -131,6 +133,7 @@ inline std::vector<Covisible> covisibleKeyframes(const Map& map, KeyframeId id,
 
 /// All pairs of keyframes that see the same points, by their ids. Takes time for each pair of
 /// observations of a point.
+/// @param map    with the keyframes
 /// @param least  points that must be shared, 1 or more
 inline std::vector<CovisibleEdge> covisibilityGraph(const Map& map, std::uint32_t least = 1) {
   std::vector<CovisibleEdge> edges;

@@ -36,6 +36,7 @@ using PreparePlugins = std::function<void(Plugins&)>;
 inline bool isIsolationWorker(int argc, const char* const* argv) noexcept;
 
 /// Runs the SLAM system for the host until that has no more need of it.
+/// @param argc, argv  of main()
 /// @param prepare  called once, before the SLAM system is looked for; empty: nothing to do
 /// @return the status of the process
 inline int runIsolationWorker(int argc, const char* const* argv,

@@ -158,6 +158,7 @@ class MapCheck {
 
 /// What is wrong with a map, one sentence each; empty for one that is right. The links between its
 /// parts are always right unless Map has a fault; numbers are as good as who wrote them.
+/// @param map   to be looked through
 /// @param most  stops after so many sentences, and looks no further
 inline std::vector<std::string> validate(const Map& map, std::size_t most = 100) {
   return detail::MapCheck(map, most).problems();

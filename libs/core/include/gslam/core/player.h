@@ -62,6 +62,7 @@ struct PlayReport {
 
 /// What the player does, on "/run/status".
 struct RunStatus {
+  /// What it does.
   enum class State : std::uint8_t { playing, paused, finished, stopped, failed };
   State state = State::playing;   ///< now
   std::uint64_t frame = 0;        ///< frames played

@@ -45,7 +45,7 @@ struct RefusedPlugin {
 
 /// Where plugins are looked for, in this order: the folders in the environment's GSLAM_PLUGIN_PATH
 /// (separated by colons), the program's folder, and from there ../lib/gslam/plugins, the same in
-/// ../lib64 and in ../lib/<architecture> (as Debian has it).
+/// ../lib64 and in ../lib/x86_64-linux-gnu or its like (as Debian has it).
 std::vector<std::string> defaultPluginFolders();
 
 /// The plugins of a program and all their factories.

@@ -81,6 +81,7 @@ class PointIndex {
   }
 
   /// The points within a distance, in no order.
+  /// @param centre  world coordinates
   /// @param radius  0 or more; infinite: all
   /// @throws ArgumentError when the centre is not finite, or the radius below 0 or not a number
   std::vector<NearPoint> inRadius(const Vec3d& centre, double radius) const {
@@ -110,6 +111,7 @@ class PointIndex {
   }
 
   /// The points that a camera has in its image, whatever lies before them, in no order.
+  /// @param camera          the camera
   /// @param T_world_camera  its pose
   /// @param max_distance    from the camera, 0 or more
   /// @throws ArgumentError when the camera is none, the pose is not finite, or the distance is

@@ -89,14 +89,23 @@ constexpr double kMatrixTolerance = 1e-3;
 /// KITTI files have no stamps: each pose gets the number of its frame, from 0 on, **which is no
 /// time**; readKittiTrajectory() gives them times.
 /// @param path     the file
-/// @param source   what errors call the stream or text
 /// @param options  as said there
 /// @throws FileError when it cannot be read
 /// @throws ParseError as said above
 inline Trajectory readTrajectory(const std::string& path,
                                  const TrajectoryFileOptions& options = TrajectoryFileOptions());
+/// The same from a stream.
+/// @param in       the stream, read to its end
+/// @param source   what errors call it
+/// @param options  as said there
+/// @throws ParseError as said above
 inline Trajectory readTrajectory(std::istream& in, const std::string& source,
                                  const TrajectoryFileOptions& options = TrajectoryFileOptions());
+/// The same from a text.
+/// @param text     all of a file
+/// @param source   what errors call it
+/// @param options  as said there
+/// @throws ParseError as said above
 inline Trajectory parseTrajectory(const std::string& text, const std::string& source,
                                   const TrajectoryFileOptions& options = TrajectoryFileOptions());
 /// @}
@@ -131,14 +140,24 @@ inline std::vector<std::int64_t> readStamps(const std::string& path);
 /// @{
 /// Writes a trajectory. A file appears under its name when it is whole: it is written beside it,
 /// and renamed. Links stay, and lead to the new content; pipes and devices are written to.
+/// @param path        the file
 /// @param trajectory  may be empty
 /// @param format      not `any`; KITTI's leaves out the stamps, see writeStamps()
 /// @throws FileError when it cannot be written
 /// @throws ArgumentError when a pose is not finite
 inline void writeTrajectory(const std::string& path, const Trajectory& trajectory,
                             TrajectoryFormat format = TrajectoryFormat::tum);
+/// The same into a stream.
+/// @param out         the stream
+/// @param trajectory  may be empty
+/// @param format      as above
+/// @throws FileError when it cannot be written, ArgumentError when a pose is not finite
 inline void writeTrajectory(std::ostream& out, const Trajectory& trajectory,
                             TrajectoryFormat format = TrajectoryFormat::tum);
+/// The same as a text.
+/// @param trajectory  may be empty
+/// @param format      as above
+/// @throws ArgumentError when a pose is not finite
 inline std::string printTrajectory(const Trajectory& trajectory,
                                    TrajectoryFormat format = TrajectoryFormat::tum);
 /// @}

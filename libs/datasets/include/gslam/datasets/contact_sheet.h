@@ -28,6 +28,7 @@ struct ContactSheetOptions {
 ///
 /// @param dataset  is moved by seek(); of a device or one of unknown length the next frames are
 /// taken
+/// @param options  what it looks like
 /// @return red, green, blue
 /// @throws ArgumentError when an option is out of range
 /// @throws Error when there is no frame, or none can be read

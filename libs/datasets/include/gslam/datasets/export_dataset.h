@@ -81,6 +81,7 @@ struct ExportReport {
 /// @param dataset  read from where it is; nobody else may use it meanwhile
 /// @param folder   made where it is not there; it must be empty
 /// @param format   one of exportFormats()
+/// @param options  the rest
 /// @throws ArgumentError when the format is not known, or cannot hold the dataset
 /// @throws FileError when the folder is not empty, or a file cannot be written
 /// @throws Error when 100 frames in a row, or all, cannot be read or written
