@@ -26,7 +26,7 @@ void sign(Bytes& bytes) {
 }
 
 bool isAboutNumbers(const std::string& problem) {
-  for (const char* const part : {"finite", "symmetric", "rig does not have"}) {
+  for (const char* const part : {"finite", "symmetric", "scale", "diagonal", "rig does not have"}) {
     if (problem.find(part) != std::string::npos) return true;
   }
   return false;
