@@ -57,6 +57,7 @@ function(_gslam_add_programs name standard)
     _gslam_find_gtest()
     add_executable(${name}_test ${tests})
     target_link_libraries(${name}_test PRIVATE GSLAM::${name} GTest::gmock GTest::gtest_main)
+    target_include_directories(${name}_test PRIVATE "${GSLAM_SOURCE_ROOT}/tests/harness")
     _gslam_set_up_program(${name}_test ${standard})
     gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST
       PROPERTIES LABELS ${name})

@@ -3,10 +3,11 @@
 #include <gslam/svar.h>
 #include <gslam/svar_formats.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+
+#include "test_data.h"
 
 namespace calibrations {
 
@@ -60,19 +61,6 @@ std::string modelOfKalibr(const std::string& distortion) {
 }
 
 }  // namespace
-
-std::string folder() {
-  const char* const path = std::getenv("GSLAM_TEST_DATA");
-  std::FILE* const found = path == nullptr ? nullptr : std::fopen(path, "r");
-  if (found == nullptr) return "";
-  std::fclose(found);
-  return std::string(path) + "/";
-}
-
-bool isRequired() {
-  const char* const ci = std::getenv("CI");
-  return ci != nullptr && std::string(ci) == "true";
-}
 
 Cameras kalibr(const std::string& path) {
   Cameras cameras;
@@ -195,7 +183,8 @@ Cameras all() {
   const auto add = [&](const Cameras& more) {
     cameras.insert(cameras.end(), more.begin(), more.end());
   };
-  const std::string calibrations = folder() + "calibrations/", sequences = folder() + "sequences/";
+  const std::string calibrations = test_data::folder() + "calibrations/",
+                    sequences = test_data::folder() + "sequences/";
   for (const char* name : {"euroc_mav", "rs_d455", "tum_vi"}) {
     add(kalibr(calibrations + "kalibr/" + name + "/kalibr_imucam_chain.yaml"));
   }

@@ -13,11 +13,6 @@ namespace calibrations {
 /// Cameras, each with the file it is from.
 using Cameras = std::vector<std::pair<std::string, gslam::Camera>>;
 
-/// The folder GSLAM_TEST_DATA with a slash at its end; empty where there is none.
-std::string folder();
-/// Whether the data must be there: CI=true.
-bool isRequired();
-
 /// Kalibr's camchain, as OpenVINS writes it.
 Cameras kalibr(const std::string& path);
 /// Basalt: double sphere and EUCM.
@@ -43,13 +38,5 @@ Cameras sevenScenes(const std::string& path);
 Cameras all();
 
 }  // namespace calibrations
-
-/// Skips the test where there is no data; where it must be, fails it.
-#define NEEDS_TEST_DATA()                                                                     \
-  do {                                                                                        \
-    if (!calibrations::folder().empty()) break;                                               \
-    if (calibrations::isRequired()) FAIL() << "GSLAM_TEST_DATA names no folder, but CI=true"; \
-    GTEST_SKIP() << "GSLAM_TEST_DATA names no folder";                                        \
-  } while (false)
 
 #endif  // GSLAM_TESTS_GEOMETRY_REAL_CALIBRATIONS_H

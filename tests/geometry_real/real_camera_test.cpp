@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "calibrations.h"
+#include "test_data.h"
 
 namespace {
 
@@ -80,7 +81,7 @@ std::pair<double, double> angles(const Camera& a, const Camera& b, int margin) {
 // Two teams, three models, one lens: conventions that differ would be pixels apart.
 TEST(RealCameras, ModelsOfOneLensAgree) {
   NEEDS_TEST_DATA();
-  const std::string folder = calibrations::folder() + "calibrations/";
+  const std::string folder = test_data::folder() + "calibrations/";
   const auto kalibr = calibrations::kalibr(folder + "kalibr/tum_vi/kalibr_imucam_chain.yaml");
   const auto ds = calibrations::basalt(folder + "basalt/tumvi_512_ds_calib.json");
   const auto eucm = calibrations::basalt(folder + "basalt/tumvi_512_eucm_calib.json");

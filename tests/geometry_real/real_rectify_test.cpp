@@ -7,6 +7,7 @@
 #include <string>
 
 #include "calibrations.h"
+#include "test_data.h"
 
 namespace {
 
@@ -36,7 +37,7 @@ Extrinsics extrinsics(const std::string& path) {
 
 TEST(RealRectification, OfEuroc) {
   NEEDS_TEST_DATA();
-  const std::string folder = calibrations::folder() + "sequences/euroc_V1_01_easy/mav0/";
+  const std::string folder = test_data::folder() + "sequences/euroc_V1_01_easy/mav0/";
   const Camera left = calibrations::euroc(folder + "cam0/sensor.yaml")[0].second;
   const Camera right = calibrations::euroc(folder + "cam1/sensor.yaml")[0].second;
   const Extrinsics of_left = extrinsics(folder + "cam0/sensor.yaml");
@@ -46,9 +47,8 @@ TEST(RealRectification, OfEuroc) {
       of_left.R_body_camera.inverse() * (of_right.t_body_camera - of_left.t_body_camera);
   const gslam::StereoRectification r = rectifyStereo(left, right, R_left_right, t_left_right);
 
-  const Svar published =
-      gslam::loadYaml(calibrations::folder() +
-                      "calibrations/stella_vslam/euroc/EuRoC_stereo.yaml")["StereoRectifier"];
+  const Svar published = gslam::loadYaml(
+      test_data::folder() + "calibrations/stella_vslam/euroc/EuRoC_stereo.yaml")["StereoRectifier"];
   for (std::size_t i = 0; i < 9; ++i) {
     EXPECT_NEAR(r.R_rectified_left.values[i], published["R_left"][i].as<double>(), 2e-5);
     EXPECT_NEAR(r.R_rectified_right.values[i], published["R_right"][i].as<double>(), 2e-5);

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "export_case.h"
-#include "export_test_data.h"
+#include "test_data.h"
 
 namespace {
 
@@ -209,8 +209,8 @@ TEST(ExportEuroc, RatesThatAreNotKnownAreMeasured) {
 }
 
 TEST(ExportEuroc, FilesAreThoseOfTheRealOne) {
-  NEEDS_SEQUENCE("euroc_V1_01_easy");
-  const std::string real = export_test_data::sequence("euroc_V1_01_easy");
+  NEEDS_TEST_DATA();
+  const std::string real = test_data::folder() + "sequences/euroc_V1_01_easy/";
   const TempFolder folder;
   exportDataset(*stereoInertial("radtan4").dataset(), folder / "euroc", "euroc");
   for (const auto& entry : fs::recursive_directory_iterator(real + "mav0")) {

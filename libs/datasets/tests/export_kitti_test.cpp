@@ -1,5 +1,5 @@
 #include "export_case.h"
-#include "export_test_data.h"
+#include "test_data.h"
 
 namespace {
 
@@ -129,8 +129,8 @@ TEST(ExportKitti, AFrameWithoutOneImageIsLeftOut) {
 }
 
 TEST(ExportKitti, FilesAreThoseOfTheRealOne) {
-  NEEDS_SEQUENCE("kitti_06");
-  const std::string real = export_test_data::sequence("kitti_06");
+  NEEDS_TEST_DATA();
+  const std::string real = test_data::folder() + "sequences/kitti_06/";
   const TempFolder folder;
   gslam::ExportOptions options;
   options.sequence = "06";

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "export_case.h"
-#include "export_test_data.h"
+#include "test_data.h"
 
 namespace {
 
@@ -155,8 +155,8 @@ TEST(ExportTum, DepthOfThisFactorIsUnchanged) {
 }
 
 TEST(ExportTum, HeadsAreThoseOfTheRealOne) {
-  NEEDS_SEQUENCE("tum_rgbd_freiburg1_rpy");
-  const std::string real = export_test_data::sequence("tum_rgbd_freiburg1_rpy");
+  NEEDS_TEST_DATA();
+  const std::string real = test_data::folder() + "sequences/tum_rgbd_freiburg1_rpy/";
   const TempFolder folder;
   exportDataset(*rgbd().dataset(), folder / "tum", "tum");
   for (const char* name : {"rgb.txt", "depth.txt", "groundtruth.txt", "accelerometer.txt"}) {

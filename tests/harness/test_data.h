@@ -1,6 +1,6 @@
-// Files below GSLAM_TEST_DATA.
-#ifndef GSLAM_SVAR_FORMATS_TESTS_TEST_DATA_H
-#define GSLAM_SVAR_FORMATS_TESTS_TEST_DATA_H
+// Files below GSLAM_TEST_DATA, for the tests of all libraries.
+#ifndef GSLAM_TESTS_HARNESS_TEST_DATA_H
+#define GSLAM_TESTS_HARNESS_TEST_DATA_H
 
 #include <gtest/gtest.h>
 
@@ -34,4 +34,4 @@ inline bool isRequired() {
     GTEST_SKIP() << "GSLAM_TEST_DATA names no folder";                                     \
   } while (false)
 
-#endif  // GSLAM_SVAR_FORMATS_TESTS_TEST_DATA_H
+#endif  // GSLAM_TESTS_HARNESS_TEST_DATA_H
