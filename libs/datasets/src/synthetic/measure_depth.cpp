@@ -53,7 +53,7 @@ class DepthRow {
  private:
   void cut(float* out) const {
     for (int u = 0; u < picture_.width; ++u) {
-      out[u] = (out[u] >= kNearest) & (out[u] <= farthest_) ? out[u] : 0;
+      out[u] = ((out[u] >= kNearest) & (out[u] <= farthest_)) ? out[u] : 0;
     }
   }
 

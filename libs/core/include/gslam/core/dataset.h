@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 /// @file
 /// A source of frames: files or a device.
@@ -18,13 +19,20 @@ inline namespace v1 {
 
 /// What is known of a dataset before its first frame.
 struct DatasetInfo {
-  std::string name;             ///< such as "MH_01_easy"
-  std::string format;           ///< such as "euroc"
-  std::string licence;          ///< one line; empty: unknown
-  SensorRig sensors;            ///< with their calibrations
-  Trajectory ground_truth;      ///< T_world_body; empty: there is none
-  std::size_t frame_count = 0;  ///< 0: unknown, as of a device
-  bool is_live = false;         ///< a device: frames are lost that are not taken in time
+  std::string name;              ///< such as "MH_01_easy"
+  std::string format;            ///< such as "euroc"
+  std::string licence;           ///< one line; empty: unknown
+  SensorRig sensors;             ///< with their calibrations
+  Trajectory ground_truth;       ///< T_world_body; empty: there is none
+  std::string body;              ///< what the body is, such as "the left camera"; empty: unknown
+  std::string clock;             ///< what stamps count, such as "POSIX time"; empty: unknown
+  std::size_t frame_count = 0;   ///< 0: unknown, as of a device
+  std::int64_t first_stamp = 0;  ///< nanoseconds, of the first frame; 0, as the last: unknown
+  std::int64_t last_stamp = 0;   ///< nanoseconds, of the last frame
+  bool is_live = false;          ///< a device: frames are lost that are not taken in time
+  /// A sentence for all that was skipped, with how much of it, for what was assumed, and for what
+  /// looks wrong.
+  std::vector<std::string> remarks;
 };
 
 /// A sequence of frames. What opens one is a DatasetFactory; an open dataset is ready.

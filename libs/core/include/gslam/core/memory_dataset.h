@@ -19,7 +19,7 @@ inline namespace v1 {
 /// Frames that are in memory already: for tests, and for programs that have frames of their own.
 class MemoryDataset : public Dataset {
  public:
-  /// @param info    `frame_count` is set to the number of frames
+  /// @param info    its `frame_count` and stamps are set to those of the frames
   /// @param frames  in order, none null; each goes out as it is
   /// @throws ArgumentError when one is null, or the ids do not count up from 0
   MemoryDataset(DatasetInfo info, std::vector<std::shared_ptr<const Frame>> frames)
@@ -33,6 +33,8 @@ class MemoryDataset : public Dataset {
       }
     }
     info_.frame_count = frames_.size();
+    info_.first_stamp = frames_.empty() ? 0 : frames_.front()->stamp;
+    info_.last_stamp = frames_.empty() ? 0 : frames_.back()->stamp;
     info_.is_live = false;
   }
 

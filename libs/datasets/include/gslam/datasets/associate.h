@@ -1,0 +1,43 @@
+#ifndef GSLAM_DATASETS_ASSOCIATE_H
+#define GSLAM_DATASETS_ASSOCIATE_H
+
+#include <gslam/base/span.h>
+#include <gslam/datasets/export.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+/// @file
+/// Which measurements of two sensors belong together.
+
+namespace gslam {
+inline namespace v1 {
+
+/// Two measurements that belong together.
+struct StampPair {
+  std::size_t a;  ///< place in the first list
+  std::size_t b;  ///< place in the second list
+};
+
+/// Pairs stamps of two lists, each with at most one of the other.
+///
+/// Of all ways to pair stamps that are no further apart than the tolerance, one with the most pairs
+/// is taken, and among these one with the least sum of distances. (TUM's associate.py takes the
+/// nearest pair first, and then may leave stamps alone that had a partner.) Pairs do not cross.
+///
+/// Time and memory: linear in the number of stamps, times the number of stamps within the
+/// tolerance of one.
+///
+/// @param a, b       nanoseconds, ascending, none twice
+/// @param tolerance  most nanoseconds between the two of a pair, 0 or more
+/// @return ascending
+/// @throws ArgumentError when a list is not ascending, or the tolerance negative
+GSLAM_DATASETS_EXPORT std::vector<StampPair> associate(Span<const std::int64_t> a,
+                                                       Span<const std::int64_t> b,
+                                                       std::int64_t tolerance);
+
+}  // namespace v1
+}  // namespace gslam
+
+#endif  // GSLAM_DATASETS_ASSOCIATE_H

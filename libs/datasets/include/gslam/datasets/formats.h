@@ -1,0 +1,48 @@
+#ifndef GSLAM_DATASETS_FORMATS_H
+#define GSLAM_DATASETS_FORMATS_H
+
+#include <gslam/core/registry.h>
+#include <gslam/datasets/export.h>
+
+#include <string>
+#include <vector>
+
+/// @file
+/// Datasets as they are on disk after unpacking: the formats of public datasets, and users' own.
+///
+/// Each is a folder, or a zip archive, which is read without unpacking. Nothing is written. What a
+/// format needs and a dataset lacks is an error that names file, line and what was expected; what
+/// was skipped, assumed or looks wrong is in DatasetInfo::remarks.
+///
+/// All have the parameters `threads` (that decode images ahead; 0: none) and `ahead` (most frames
+/// that are decoded and not taken). Their own stand in DatasetFactory::parameters, and are said
+/// below.
+
+namespace gslam {
+inline namespace v1 {
+
+/// The name of the format that a folder or file has, such as "euroc"; empty where none of
+/// datasetFormats() has it. Looks at names of files and the heads of a few, reads no image.
+GSLAM_DATASETS_EXPORT std::string datasetFormatOf(const std::string& path);
+
+/// All formats below.
+GSLAM_DATASETS_EXPORT std::vector<DatasetFactory> datasetFormats();
+
+GSLAM_DATASETS_EXPORT DatasetFactory kittiFactory();        ///< `kitti`: KITTI odometry
+GSLAM_DATASETS_EXPORT DatasetFactory kittiRawFactory();     ///< `kittiraw`: KITTI raw
+GSLAM_DATASETS_EXPORT DatasetFactory tumFactory();          ///< `tum`: TUM RGB-D
+GSLAM_DATASETS_EXPORT DatasetFactory iclFactory();          ///< `icl`: ICL-NUIM
+GSLAM_DATASETS_EXPORT DatasetFactory tumMonoFactory();      ///< `tummono`: TUM monoVO
+GSLAM_DATASETS_EXPORT DatasetFactory eurocFactory();        ///< `euroc`: EuRoC MAV, ASL layout
+GSLAM_DATASETS_EXPORT DatasetFactory tumViFactory();        ///< `tumvi`: TUM VI
+GSLAM_DATASETS_EXPORT DatasetFactory droneMapFactory();     ///< `dronemap`: NPU DroneMap
+GSLAM_DATASETS_EXPORT DatasetFactory photosFactory();       ///< `photos`: photos with EXIF GPS
+GSLAM_DATASETS_EXPORT DatasetFactory sevenScenesFactory();  ///< `7scenes`: Microsoft 7-Scenes
+GSLAM_DATASETS_EXPORT DatasetFactory strechaFactory();      ///< `strecha`: Strecha multi-view
+GSLAM_DATASETS_EXPORT DatasetFactory folderFactory();       ///< `folder`: users' own cameras
+GSLAM_DATASETS_EXPORT DatasetFactory cvMonoFactory();       ///< `cvmono`: videos, images, devices
+
+}  // namespace v1
+}  // namespace gslam
+
+#endif  // GSLAM_DATASETS_FORMATS_H

@@ -1,0 +1,49 @@
+// Image files to pixels.
+#ifndef GSLAM_DATASETS_SRC_READING_DECODE_H
+#define GSLAM_DATASETS_SRC_READING_DECODE_H
+
+#include <gslam/core/frame.h>
+#include <gslam/core/image.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "file_tree.h"
+
+namespace gslam {
+inline namespace v1 {
+namespace reading {
+
+/// The pixels of an image file as they are stored: u8, u16 or f32; grey, blue-green-red or with
+/// opacity. A rotation that EXIF asks for is not done: cameras are calibrated without it.
+/// @param bytes  all of the file
+/// @param name   what errors call it
+/// @throws FileError when it is empty, or no image, or ends early
+Image decodeImage(const std::vector<std::uint8_t>& bytes, const std::string& name);
+
+/// The same of a file in a tree.
+Image readImage(const FileTree& tree, const std::string& file);
+
+/// What pixels with that many channels mean: grey, bgr or bgra.
+/// @throws FileError for another number
+ImageKind kindOf(const Image& image, const std::string& name);
+
+/// The images of one camera: what its first one is like, so are all.
+struct ImageShape {
+  int width = 0;
+  int height = 0;
+  PixelType type = PixelType::u8;
+  int channels = 1;
+};
+ImageShape shapeOf(const Image& image);
+
+/// @throws FileError when an image has not that shape
+void checkShape(const Image& image, const ImageShape& shape, const std::string& name);
+
+}  // namespace reading
+}  // namespace v1
+}  // namespace gslam
+
+#endif  // GSLAM_DATASETS_SRC_READING_DECODE_H

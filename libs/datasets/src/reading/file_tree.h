@@ -1,0 +1,75 @@
+// The files of a dataset, in a folder or a zip archive.
+#ifndef GSLAM_DATASETS_SRC_READING_FILE_TREE_H
+#define GSLAM_DATASETS_SRC_READING_FILE_TREE_H
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gslam {
+inline namespace v1 {
+namespace reading {
+
+/// Files below a root. Paths are relative to it, with '/' between names: "cam0/data.csv"; "" is the
+/// root itself, and a path of a folder has no '/' at its end. Threads may share one.
+///
+/// Each folder is listed once, at the first question about it: tens of thousands of has() cost one
+/// look into the folder.
+class FileTree {
+ public:
+  /// @param path  a folder, or a file that ends in ".zip"
+  /// @throws FileError when it cannot be opened, or is neither
+  static std::shared_ptr<const FileTree> open(const std::string& path);
+  virtual ~FileTree() = default;
+
+  /// Names of the files in a folder, sorted by bytes; none where there is no such folder.
+  virtual const std::vector<std::string>& files(const std::string& folder) const = 0;
+  /// Names of the folders in a folder, sorted by bytes; none where there is no such folder.
+  virtual const std::vector<std::string>& folders(const std::string& folder) const = 0;
+  /// Whether there is a file, or a folder.
+  bool has(const std::string& file) const;
+  bool hasFolder(const std::string& folder) const;
+
+  /// All bytes of a file. @throws FileError that names it when it cannot be read
+  virtual std::vector<std::uint8_t> read(const std::string& file) const = 0;
+  /// The same as text, for FieldReader, parseYaml() and others.
+  std::string text(const std::string& file) const;
+
+  /// What errors call a file: "/data/seq.zip/cam0/data.csv".
+  std::string nameOf(const std::string& file) const;
+  /// The root as the user wrote it, without '/' at its end.
+  const std::string& root() const noexcept { return root_; }
+  /// Name of the root for DatasetInfo::name: the last part of the full path, without ".zip".
+  std::string baseName() const;
+
+ protected:
+  explicit FileTree(std::string root);
+
+ private:
+  std::string root_;
+};
+
+/// The same files, seen from a folder below the root (for archives and folders that have the
+/// sequence inside of another folder). "" gives the tree itself.
+std::shared_ptr<const FileTree> below(std::shared_ptr<const FileTree> tree,
+                                      const std::string& folder);
+
+/// a + "/" + b; b where a is empty.
+std::string joined(const std::string& a, const std::string& b);
+
+/// @{
+/// Parts of a path: "cam0/data.csv" is in "cam0", and called "data.csv".
+std::string folderOf(const std::string& path);
+std::string nameIn(const std::string& path);
+/// @}
+
+/// Whether a name has the ending of an image that OpenCV reads (png, jpg, jpeg, pgm, ppm, pbm, bmp,
+/// tif, tiff, exr, webp, jp2), in any case.
+bool isImageName(const std::string& name);
+
+}  // namespace reading
+}  // namespace v1
+}  // namespace gslam
+
+#endif  // GSLAM_DATASETS_SRC_READING_FILE_TREE_H
