@@ -39,10 +39,10 @@ const std::string* firstImage(Files tree, Folder folder) {
 }
 
 bool isKittiSequence(Files tree, Folder folder) {
-  const bool has_images = tree.hasFolder(joined(folder, "image_0")) ||
-                          tree.hasFolder(joined(folder, "image_2"));
-  return has_images && (tree.has(joined(folder, "calib.txt")) ||
-                        tree.has(joined(folder, "times.txt")));
+  const bool has_images =
+      tree.hasFolder(joined(folder, "image_0")) || tree.hasFolder(joined(folder, "image_2"));
+  return has_images &&
+         (tree.has(joined(folder, "calib.txt")) || tree.has(joined(folder, "times.txt")));
 }
 
 bool isKittiRaw(Files tree, Folder folder) {
@@ -127,19 +127,12 @@ struct Look {
 };
 
 // Those that ask for more come first: what is left has only images.
-const Look kLooks[] = {{"tumvi", 1, isTumVi},
-                       {"euroc", 1, isAsl},
-                       {"kittiraw", 2, isKittiRaw},
-                       {"kitti", 3, isKittiSequence},
-                       {"icl", 1, isIcl},
-                       {"tum", 1, isTum},
-                       {"tummono", 1, isTumMono},
-                       {"dronemap", 1, isDroneMap},
-                       {"7scenes", 1, isSevenScenes},
-                       {"strecha", 1, isStrecha},
-                       {"folder", 0, isFolder},
-                       {"photos", 1, isPhotos},
-                       {"cvmono", 0, isImages}};
+const Look kLooks[] = {
+    {"tumvi", 1, isTumVi},         {"euroc", 1, isAsl},         {"kittiraw", 2, isKittiRaw},
+    {"kitti", 3, isKittiSequence}, {"icl", 1, isIcl},           {"tum", 1, isTum},
+    {"tummono", 1, isTumMono},     {"dronemap", 1, isDroneMap}, {"7scenes", 1, isSevenScenes},
+    {"strecha", 1, isStrecha},     {"folder", 0, isFolder},     {"photos", 1, isPhotos},
+    {"cvmono", 0, isImages}};
 
 std::string formatOfTree(Files tree) {
   for (const Look& look : kLooks) {
