@@ -4,6 +4,7 @@
 /// @file
 /// All of GSLAM::datasets.
 
+#include <gslam/datasets/calibration_file.h>
 #include <gslam/datasets/contact_sheet.h>
 #include <gslam/datasets/export_dataset.h>
 #include <gslam/datasets/synthetic.h>

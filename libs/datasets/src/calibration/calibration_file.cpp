@@ -27,10 +27,12 @@ struct Format {
 };
 
 const Format kFormats[] = {
-    {"kalibr", "Kalibr's camchain.yaml and imu.yaml, as OpenVINS has them, too: pinhole, omni, ds, "
+    {"kalibr",
+     "Kalibr's camchain.yaml and imu.yaml, as OpenVINS has them, too: pinhole, omni, ds, "
      "eucm with radtan, equidistant, fov or none",
      false, isKalibr, parseKalibr},
-    {"opencv", "OpenCV's samples and ROS' camera_info, YAML or XML: pinhole, radtan, fisheye, "
+    {"opencv",
+     "OpenCV's samples and ROS' camera_info, YAML or XML: pinhole, radtan, fisheye, "
      "omnidir",
      false, isOpenCv, parseOpenCv},
     {"ocamcalib", "calib_results.txt of Scaramuzza's toolbox: ocam", true, isOcamcalib,
@@ -50,7 +52,8 @@ const Format kFormats[] = {
 
 std::string namesOfAll() {
   std::string names;
-  for (const Format& format : kFormats) names += (names.empty() ? "" : ", ") + std::string(format.name);
+  for (const Format& format : kFormats)
+    names += (names.empty() ? "" : ", ") + std::string(format.name);
   return names;
 }
 
@@ -65,10 +68,10 @@ const Format& formatNamed(const std::string& name) {
 void checkOptions(const CalibrationOptions& options) {
   if (!options.format.empty()) formatNamed(options.format);
   if (options.width < 0 || options.height < 0 || (options.width == 0) != (options.height == 0)) {
-    throw ArgumentError("CalibrationOptions::width",
-                        "and height are " + std::to_string(options.width) + " and " +
-                            std::to_string(options.height) +
-                            ", expected both 1 or more, or both 0");
+    throw ArgumentError("CalibrationOptions::width", "and height are " +
+                                                         std::to_string(options.width) + " and " +
+                                                         std::to_string(options.height) +
+                                                         ", expected both 1 or more, or both 0");
   }
   const std::string& bare = options.bare_model;
   if (bare.empty() || bare == "RadTan" || bare == "EquiDistant") return;
@@ -92,9 +95,9 @@ Document takeApart(const std::string& text, const std::string& source,
                    const CalibrationOptions& options) {
   const std::string head = firstLine(text);
   if (head.empty()) throw ParseError(source, 0, 0, "is empty, expected a calibration");
-  const bool is_lines = options.format.empty()
-                            ? head.find_first_of(":%<{[") == std::string::npos && head.compare(0, 3, "---") != 0
-                            : formatNamed(options.format).is_lines;
+  const bool is_lines = options.format.empty() ? head.find_first_of(":%<{[") == std::string::npos &&
+                                                     head.compare(0, 3, "---") != 0
+                                               : formatNamed(options.format).is_lines;
   Svar root;
   if (!is_lines) {
     root = head[0] == '<'   ? parseXml(text, source)

@@ -43,7 +43,8 @@ const Model& readModel(FieldReader& reader) {
   const Model* const model = modelNamed(name);
   if (model != nullptr) return *model;
   std::string expected;
-  for (const Model& known : kModels) expected += (expected.empty() ? "" : ", ") + std::string(known.theirs);
+  for (const Model& known : kModels)
+    expected += (expected.empty() ? "" : ", ") + std::string(known.theirs);
   reader.fail(at, "the model is '" + name + "', expected one of " + expected);
 }
 

@@ -21,7 +21,7 @@ ImageSize sizeOfOptions(const Document& document) {
   const CalibrationOptions& options = document.options;
   if (options.width > 0 && options.height > 0) return {options.width, options.height};
   throw ParseError(document.source, 0, 0,
-                   "does not say how large the images are, expected it from the options: "
+                   "does not say how large the images are, expected that in "
                    "CalibrationOptions::width and height");
 }
 

@@ -139,8 +139,7 @@ Calibration parseDso(const Document& document) {
   }
   std::vector<double> values = inPixels(first.values, size);
   if (first.model->numbers == 5 && first.model->ours == std::string("pinhole")) values.resize(4);
-  const Camera camera =
-      makeCamera(document.source, first.line, first.model->ours, size, values);
+  const Camera camera = makeCamera(document.source, first.line, first.model->ours, size, values);
   result.rig.cameras.push_back(makeSensor("camera", camera));
   result.body = "the camera";
   return result;

@@ -68,8 +68,8 @@ double Fields::number() const {
     fail(std::string("is of type ") + value_.typeName() + ", expected a number");
   }
   // An integer of more than 53 bits is no double to as().
-  const double value = value_.type() == SvarType::integer ? double(value_.as<std::int64_t>())
-                                                          : value_.as<double>();
+  const double value =
+      value_.type() == SvarType::integer ? double(value_.as<std::int64_t>()) : value_.as<double>();
   if (!std::isfinite(value)) fail("is not finite, expected a number");
   return value;
 }

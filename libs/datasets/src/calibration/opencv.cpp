@@ -96,8 +96,7 @@ SE3d placeOfSecond(const Fields& root, Calibration& result) {
   const std::vector<double> t = root["T"].numbers(3);
   // A rotation vector is what some programs write in place of the matrix.
   const std::vector<double> r = root["R"].numbers();
-  const SO3d rotation =
-      r.size() == 3 ? SO3d::exp({{r[0], r[1], r[2]}}) : root["R"].rotation();
+  const SO3d rotation = r.size() == 3 ? SO3d::exp({{r[0], r[1], r[2]}}) : root["R"].rotation();
   return SE3d(rotation, {{t[0], t[1], t[2]}}).inverse();
 }
 

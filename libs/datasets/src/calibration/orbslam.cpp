@@ -56,15 +56,15 @@ Camera cameraOf(const Fields& root, const std::string& camera, Lens lens, ImageS
 CameraSensor sideOf(const Fields& root, const std::string& side, const std::string& name) {
   const ImageSize size = {root[side + ".width"].pixels(), root[side + ".height"].pixels()};
   const Fields matrix = root[side + ".K"];
-  return makeSensor(name, radtanOrPinhole(matrix, size, intrinsicsOfMatrix(matrix),
-                                          root[side + ".D"].numbers()));
+  return makeSensor(
+      name, radtanOrPinhole(matrix, size, intrinsicsOfMatrix(matrix), root[side + ".D"].numbers()));
 }
 
 void readRectifiedPair(const Fields& root, double rate, Calibration& result) {
   CameraSensor left = sideOf(root, "LEFT", "left"), right = sideOf(root, "RIGHT", "right");
   const double baseline = root["Camera.bf"].number() / root["Camera.fx"].number();
-  right.T_body_camera = placeOfRight(root["LEFT.R"].rotation(), root["RIGHT.R"].rotation(),
-                                     baseline);
+  right.T_body_camera =
+      placeOfRight(root["LEFT.R"].rotation(), root["RIGHT.R"].rotation(), baseline);
   left.rate = right.rate = rate;
   result.rig.cameras = {left, right};
   result.remarks.push_back(
@@ -90,8 +90,7 @@ void addSecond(const Document& document, Lens lens, double rate, Calibration& re
           "where the first one is");
     }
     const SE3d place = has_place ? root.anyOf({"Stereo.T_c1_c2", "Tlr"}).pose() : SE3d();
-    const Camera second =
-        cameraOf(root, "Camera2", lens, {first.width(), first.height()});
+    const Camera second = cameraOf(root, "Camera2", lens, {first.width(), first.height()});
     result.rig.cameras.push_back(makeSensor("right", second, place, rate));
     return;
   }
@@ -112,8 +111,8 @@ void readCameras(const Document& document, Calibration& result) {
   result.rig.cameras.push_back(makeSensor("left", camera, SE3d(), rate));
   if (root.hasAnyOf({"DepthMapFactor", "RGBD.DepthMapFactor"})) {
     result.rig.cameras[0].name = "rgb";
-    result.rig.cameras.push_back(depthOf(
-        result.rig.cameras[0], root.anyOf({"DepthMapFactor", "RGBD.DepthMapFactor"})));
+    result.rig.cameras.push_back(
+        depthOf(result.rig.cameras[0], root.anyOf({"DepthMapFactor", "RGBD.DepthMapFactor"})));
     return;  // the baseline of RGB-D is one that ORB-SLAM makes up
   }
   addSecond(document, lens, rate, result);

@@ -46,8 +46,7 @@ Camera takenBy(const Fields& rectifier, const std::string& side, ImageSize size)
   return makeCamera(matrix, "kannala_brandt", size, joined(intrinsics, k));
 }
 
-void readPair(const Document& document, const Fields& camera, ImageSize size,
-              Calibration& result) {
+void readPair(const Document& document, const Fields& camera, ImageSize size, Calibration& result) {
   const double baseline = baselineOf(camera);
   result.rig.cameras[0].name = "left";
   CameraSensor right = result.rig.cameras[0];
@@ -57,8 +56,8 @@ void readPair(const Document& document, const Fields& camera, ImageSize size,
     const Fields rectifier = document.root["StereoRectifier"];
     result.rig.cameras[0].camera = takenBy(rectifier, "left", size);
     right.camera = takenBy(rectifier, "right", size);
-    right.T_body_camera = placeOfRight(rectifier["R_left"].rotation(),
-                                       rectifier["R_right"].rotation(), baseline);
+    right.T_body_camera =
+        placeOfRight(rectifier["R_left"].rotation(), rectifier["R_right"].rotation(), baseline);
     result.remarks.push_back(
         "stella_vslam would rectify the images; the cameras are those of the images as they were "
         "taken");

@@ -34,8 +34,11 @@ Calibration parseSvo(const Document& document) {
   if (model != "ATAN" && model != "Pinhole" && !is_fisheye) {
     word.fail("is '" + model + "', expected ATAN, Pinhole or Equidistant");
   }
-  const Camera camera = makeCamera(
-      word, model == "ATAN" ? "fov" : is_fisheye ? "kannala_brandt" : "radtan", size, v);
+  const Camera camera = makeCamera(word,
+                                   model == "ATAN" ? "fov"
+                                   : is_fisheye    ? "kannala_brandt"
+                                                   : "radtan",
+                                   size, v);
   result.rig.cameras.push_back(makeSensor("camera", camera));
   result.body = "the camera";
   if (root.number("scale", 1) != 1 || root.number("cam_scale", 1) != 1) {

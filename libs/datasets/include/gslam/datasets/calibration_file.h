@@ -59,20 +59,19 @@ struct Calibration {
 ///
 /// | format | cameras | other |
 /// | --- | --- | --- |
-/// | kalibr | pinhole, omni, ds, eucm with radtan, equidistant, fov, none | chain, IMU, time shift |
-/// | opencv | 0, 4, 5, 8, 12, 14 coefficients, fisheye, omnidir; YAML, XML; ROS' camera_info | R, T |
-/// | ocamcalib | polynomial of up to 5 coefficients | |
-/// | basalt | ds, eucm, ucm, kb4, fov, pinhole, pinhole-radtan8 | IMU, time offset |
-/// | orbslam | PinHole, KannalaBrandt8, Rectified; of ORB-SLAM2, too | baseline, IMU, depth |
-/// | colmap | cameras.txt: all models that Camera has | |
+/// | kalibr | pinhole, omni, ds, eucm with radtan, equidistant, fov, none | chain, IMU, time shift
+/// | | opencv | 0, 4, 5, 8, 12, 14 coefficients, fisheye, omnidir; YAML, XML; ROS' camera_info | R,
+/// T | | ocamcalib | polynomial of up to 5 coefficients | | | basalt | ds, eucm, ucm, kb4, fov,
+/// pinhole, pinhole-radtan8 | IMU, time offset | | orbslam | PinHole, KannalaBrandt8, Rectified; of
+/// ORB-SLAM2, too | baseline, IMU, depth | | colmap | cameras.txt: all models that Camera has | |
 /// | euroc | sensor.yaml of a camera or an IMU | T_BS, rates |
 /// | dso | camera.txt: Pinhole, FOV, RadTan, EquiDistant, KannalaBrandt | |
 /// | stella | perspective, fisheye, equirectangular | baseline, rectification, depth |
 /// | svo | ATAN, Pinhole, Equidistant | |
 ///
 /// Cameras are those of the images as they were taken: what a file says of images that its program
-/// makes of them (rectified, cropped or scaled ones) is a remark. A pinhole with radial and tangential
-/// coefficients that are all 0 is the model `pinhole`.
+/// makes of them (rectified, cropped or scaled ones) is a remark. A pinhole with radial and
+/// tangential coefficients that are all 0 is the model `pinhole`.
 ///
 /// @param path     the file
 /// @param options  as said there
