@@ -35,17 +35,20 @@ struct CloseFile {
   void operator()(std::FILE* file) const noexcept { std::fclose(file); }
 };
 
-std::vector<std::uint8_t> readWhole(const std::string& path) {
+std::vector<std::uint8_t> readFile(const std::string& path, std::size_t most) {
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
   if (file == nullptr) throw FileError(path, "cannot be opened", errno);
   std::error_code unknown;
   const std::uintmax_t size = std::filesystem::file_size(path, unknown);
-  std::vector<std::uint8_t> bytes(unknown ? 0 : static_cast<std::size_t>(size));
-  std::size_t count = std::fread(bytes.data(), 1, bytes.size(), file.get());
+  std::vector<std::uint8_t> bytes(
+      unknown ? 0 : static_cast<std::size_t>(std::min<std::uintmax_t>(size, most)));
+  bytes.resize(std::fread(bytes.data(), 1, bytes.size(), file.get()));
   // What has no size, or grew.
   std::array<std::uint8_t, 4096> more;
-  bytes.resize(count);
-  while ((count = std::fread(more.data(), 1, more.size(), file.get())) > 0) {
+  while (bytes.size() < most) {
+    const std::size_t wanted = std::min(more.size(), most - bytes.size());
+    const std::size_t count = std::fread(more.data(), 1, wanted, file.get());
+    if (count == 0) break;
     bytes.insert(bytes.end(), more.data(), more.data() + count);
   }
   if (std::ferror(file.get()) != 0) throw FileError(path, "cannot be read", errno);
@@ -62,8 +65,8 @@ class FolderTree final : public FileTree {
   const std::vector<std::string>& folders(const std::string& folder) const override {
     return list(folder).folders;
   }
-  std::vector<std::uint8_t> read(const std::string& file) const override {
-    return readWhole(joined(root(), file));
+  std::vector<std::uint8_t> read(const std::string& file, std::size_t most) const override {
+    return readFile(joined(root(), file), most);
   }
 
  private:
@@ -114,8 +117,8 @@ class PartOfTree final : public FileTree {
   const std::vector<std::string>& folders(const std::string& folder) const override {
     return whole_->folders(joined(folder_, folder));
   }
-  std::vector<std::uint8_t> read(const std::string& file) const override {
-    return whole_->read(joined(folder_, file));
+  std::vector<std::uint8_t> read(const std::string& file, std::size_t most) const override {
+    return whole_->read(joined(folder_, file), most);
   }
 
  private:

@@ -131,8 +131,8 @@ const Look kLooks[] = {
     {"tumvi", 1, isTumVi},         {"euroc", 1, isAsl},         {"kittiraw", 2, isKittiRaw},
     {"kitti", 3, isKittiSequence}, {"icl", 1, isIcl},           {"tum", 1, isTum},
     {"tummono", 1, isTumMono},     {"dronemap", 1, isDroneMap}, {"7scenes", 1, isSevenScenes},
-    {"strecha", 1, isStrecha},     {"folder", 0, isFolder},     {"photos", 1, isPhotos},
-    {"cvmono", 0, isImages}};
+    {"strecha", 1, isStrecha},     {"folder", 1, isFolder},     {"photos", 1, isPhotos},
+    {"cvmono", 1, isImages}};
 
 std::string formatOfTree(Files tree) {
   for (const Look& look : kLooks) {
@@ -177,6 +177,10 @@ Place findFolder(const FileTree& tree, int depth,
   return {};
 }
 
+bool isFolderOrArchive(const std::string& path) {
+  return detail::fileKind(path) == detail::FileKind::folder || hasEnding(path, {"zip"});
+}
+
 std::function<bool(const std::string& path)> recognizesAs(const std::string& format) {
   return [format](const std::string& path) { return datasetFormatOf(path) == format; };
 }
@@ -185,9 +189,8 @@ std::function<bool(const std::string& path)> recognizesAs(const std::string& for
 
 std::string datasetFormatOf(const std::string& path) {
   using namespace reading;  // NOLINT(google-build-using-namespace): one function
-  const bool is_folder = detail::fileKind(path) == detail::FileKind::folder;
   try {
-    if (is_folder || hasEnding(path, {"zip"})) return formatOfTree(*FileTree::open(path));
+    if (isFolderOrArchive(path)) return formatOfTree(*FileTree::open(path));
   } catch (const Error&) {  // a broken archive: whoever is asked to open it says why
     return "";
   }

@@ -165,9 +165,21 @@ PhotoFacts photoFacts(const std::vector<std::uint8_t>& bytes, const std::string&
   return facts;
 }
 
+// EXIF and XMP stand before the pixels, each in less than 64 KiB, but in TIFF files anywhere.
+PhotoFacts photoFacts(const FileTree& tree, const std::string& file) {
+  constexpr std::size_t kHead = 1 << 18;
+  const std::vector<std::uint8_t> head = tree.read(file, kHead);
+  try {
+    return photoFacts(head, tree.nameOf(file));
+  } catch (const FileError&) {
+    if (head.size() < kHead) throw;
+  }
+  return photoFacts(tree.read(file), tree.nameOf(file));
+}
+
 bool hasPosition(const FileTree& tree, const std::string& file) {
   try {
-    return photoFacts(tree.read(file), tree.nameOf(file)).has_position;
+    return photoFacts(tree, file).has_position;
   } catch (const Error&) {
     return false;
   }

@@ -38,6 +38,9 @@ struct PhotoFacts {
 /// @throws FileError when they are no image
 PhotoFacts photoFacts(const std::vector<std::uint8_t>& bytes, const std::string& name);
 
+/// The same of a file in a tree, of which only the beginning is read where that is enough.
+PhotoFacts photoFacts(const FileTree& tree, const std::string& file);
+
 /// Whether an image file in a tree has a position.
 bool hasPosition(const FileTree& tree, const std::string& file);
 

@@ -66,11 +66,11 @@ class ZipTree final : public FileTree {
     return list(folder).folders;
   }
 
-  std::vector<std::uint8_t> read(const std::string& file) const override {
+  std::vector<std::uint8_t> read(const std::string& file, std::size_t most) const override {
     const auto entry = entries_.find(file);
     if (entry == entries_.end()) throw FileError(nameOf(file), "does not exist");
     Archive archive = take();
-    std::vector<std::uint8_t> bytes = readEntry(archive.get(), entry->second, nameOf(file));
+    std::vector<std::uint8_t> bytes = readEntry(archive.get(), entry->second, most, nameOf(file));
     const std::lock_guard<std::mutex> lock(mutex_);
     idle_.push_back(std::move(archive));
     return bytes;
@@ -122,7 +122,7 @@ class ZipTree final : public FileTree {
   }
 
   // The size that an archive states is not believed: memory is taken as bytes come.
-  static std::vector<std::uint8_t> readEntry(zip_t* archive, zip_uint64_t entry,
+  static std::vector<std::uint8_t> readEntry(zip_t* archive, zip_uint64_t entry, std::size_t most,
                                              const std::string& name) {
     const std::unique_ptr<zip_file_t, Discard> file(zip_fopen_index(archive, entry, 0));
     if (file == nullptr)
@@ -130,11 +130,12 @@ class ZipTree final : public FileTree {
     zip_stat_t facts;
     zip_stat_init(&facts);
     const bool is_known = zip_stat_index(archive, entry, 0, &facts) == 0;
-    const std::uint64_t stated = is_known && (facts.valid & ZIP_STAT_SIZE) != 0 ? facts.size : 0;
-    std::vector<std::uint8_t> bytes(
-        static_cast<std::size_t>(std::max<std::uint64_t>(1, std::min(stated, kFirstBytes))));
+    std::uint64_t size = is_known && (facts.valid & ZIP_STAT_SIZE) != 0 ? facts.size : 0;
+    size = std::min({size + 1, kFirstBytes, static_cast<std::uint64_t>(most)});
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
     std::size_t end = 0;
-    while (true) {
+    while (end < most) {
+      if (end == bytes.size()) bytes.resize(std::min(end * 2, most));
       const zip_int64_t count = zip_fread(file.get(), bytes.data() + end, bytes.size() - end);
       if (count < 0) {
         throw FileError(name, std::string("cannot be read: ") + zip_file_strerror(file.get()));
@@ -142,7 +143,6 @@ class ZipTree final : public FileTree {
       end += static_cast<std::size_t>(count);
       if (count == 0) break;
       if (end > kMostBytes) throw FileError(name, "is larger than 1 GiB, expected less");
-      if (end == bytes.size()) bytes.resize(end * 2);
     }
     bytes.resize(end);
     return bytes;
