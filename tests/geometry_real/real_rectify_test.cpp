@@ -1,4 +1,5 @@
 // Rectification of EuRoC's stereo camera against the rotations that stella_vslam publishes for it.
+#include <gslam/datasets/calibration_file.h>
 #include <gslam/geometry/rectify.h>
 #include <gslam/svar.h>
 #include <gslam/svar_formats.h>
@@ -6,45 +7,27 @@
 
 #include <string>
 
-#include "calibrations.h"
 #include "test_data.h"
 
 namespace {
 
 using gslam::Camera;
-using gslam::Mat3d;
 using gslam::SO3d;
 using gslam::Svar;
 using gslam::Vec2d;
 using gslam::Vec3d;
 
-struct Extrinsics {
-  SO3d R_body_camera;
-  Vec3d t_body_camera;
-};
-
-Extrinsics extrinsics(const std::string& path) {
-  const Svar data = gslam::loadYaml(path)["T_BS"]["data"];
-  Mat3d rotation;
-  Extrinsics result;
-  for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t c = 0; c < 3; ++c) rotation(row, c) = data[4 * row + c].as<double>();
-    result.t_body_camera[row] = data[4 * row + 3].as<double>();
-  }
-  result.R_body_camera = SO3d::fromMatrix(rotation);
-  return result;
-}
-
 TEST(RealRectification, OfEuroc) {
   NEEDS_TEST_DATA();
   const std::string folder = test_data::folder() + "sequences/euroc_V1_01_easy/mav0/";
-  const Camera left = calibrations::euroc(folder + "cam0/sensor.yaml")[0].second;
-  const Camera right = calibrations::euroc(folder + "cam1/sensor.yaml")[0].second;
-  const Extrinsics of_left = extrinsics(folder + "cam0/sensor.yaml");
-  const Extrinsics of_right = extrinsics(folder + "cam1/sensor.yaml");
-  const SO3d R_left_right = of_left.R_body_camera.inverse() * of_right.R_body_camera;
-  const Vec3d t_left_right =
-      of_left.R_body_camera.inverse() * (of_right.t_body_camera - of_left.t_body_camera);
+  const gslam::CameraSensor cam0 =
+      gslam::readCalibration(folder + "cam0/sensor.yaml").rig.cameras[0];
+  const gslam::CameraSensor cam1 =
+      gslam::readCalibration(folder + "cam1/sensor.yaml").rig.cameras[0];
+  const Camera left = cam0.camera, right = cam1.camera;
+  const gslam::SE3d T_left_right = cam0.T_body_camera.inverse() * cam1.T_body_camera;
+  const SO3d R_left_right = T_left_right.rotation();
+  const Vec3d t_left_right = T_left_right.translation();
   const gslam::StereoRectification r = rectifyStereo(left, right, R_left_right, t_left_right);
 
   const Svar published = gslam::loadYaml(

@@ -7,6 +7,7 @@
 #include <gslam/core/open_dataset.h>
 #include <gslam/core/ply.h>
 #include <gslam/core/trajectory_file.h>
+#include <gslam/svar.h>  // all of it: names in `detail` are shared
 
 #include <cstdint>
 #include <istream>

@@ -12,6 +12,7 @@ bool instantiateDatasets(const std::string& name) {
   const std::unique_ptr<gslam::Dataset> dataset = gslam::openSynthetic(options);
   const gslam::FrameRanges ranges = gslam::FrameRanges::fromText("1-2");
   return dataset->next() != nullptr && ranges.contains(1) && ranges.text() == "1-2" &&
-         gslam::syntheticFactory().recognizes(name) &&
+         gslam::parseCalibration(name, "name").format.empty() &&
+         gslam::calibrationFormats().empty() && gslam::syntheticFactory().recognizes(name) &&
          gslam::Svar(options).as<gslam::SyntheticOptions>().world == options.world;
 }

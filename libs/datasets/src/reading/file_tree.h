@@ -2,7 +2,9 @@
 #ifndef GSLAM_DATASETS_SRC_READING_FILE_TREE_H
 #define GSLAM_DATASETS_SRC_READING_FILE_TREE_H
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,8 +33,11 @@ class FileTree {
   bool has(const std::string& file) const;
   bool hasFolder(const std::string& folder) const;
 
-  /// All bytes of a file. @throws FileError that names it when it cannot be read
-  virtual std::vector<std::uint8_t> read(const std::string& file) const = 0;
+  /// The bytes of a file, at most so many of its beginning.
+  /// @throws FileError that names it when it cannot be read
+  virtual std::vector<std::uint8_t> read(
+      const std::string& file,
+      std::size_t most = std::numeric_limits<std::size_t>::max()) const = 0;
   /// The same as text, for FieldReader, parseYaml() and others.
   std::string text(const std::string& file) const;
 

@@ -39,10 +39,10 @@ const std::string* firstImage(Files tree, Folder folder) {
 }
 
 bool isKittiSequence(Files tree, Folder folder) {
-  const bool has_images = tree.hasFolder(joined(folder, "image_0")) ||
-                          tree.hasFolder(joined(folder, "image_2"));
-  return has_images && (tree.has(joined(folder, "calib.txt")) ||
-                        tree.has(joined(folder, "times.txt")));
+  const bool has_images =
+      tree.hasFolder(joined(folder, "image_0")) || tree.hasFolder(joined(folder, "image_2"));
+  return has_images &&
+         (tree.has(joined(folder, "calib.txt")) || tree.has(joined(folder, "times.txt")));
 }
 
 bool isKittiRaw(Files tree, Folder folder) {
@@ -127,19 +127,12 @@ struct Look {
 };
 
 // Those that ask for more come first: what is left has only images.
-const Look kLooks[] = {{"tumvi", 1, isTumVi},
-                       {"euroc", 1, isAsl},
-                       {"kittiraw", 2, isKittiRaw},
-                       {"kitti", 3, isKittiSequence},
-                       {"icl", 1, isIcl},
-                       {"tum", 1, isTum},
-                       {"tummono", 1, isTumMono},
-                       {"dronemap", 1, isDroneMap},
-                       {"7scenes", 1, isSevenScenes},
-                       {"strecha", 1, isStrecha},
-                       {"folder", 0, isFolder},
-                       {"photos", 1, isPhotos},
-                       {"cvmono", 0, isImages}};
+const Look kLooks[] = {
+    {"tumvi", 1, isTumVi},         {"euroc", 1, isAsl},         {"kittiraw", 2, isKittiRaw},
+    {"kitti", 3, isKittiSequence}, {"icl", 1, isIcl},           {"tum", 1, isTum},
+    {"tummono", 1, isTumMono},     {"dronemap", 1, isDroneMap}, {"7scenes", 1, isSevenScenes},
+    {"strecha", 1, isStrecha},     {"folder", 1, isFolder},     {"photos", 1, isPhotos},
+    {"cvmono", 1, isImages}};
 
 std::string formatOfTree(Files tree) {
   for (const Look& look : kLooks) {
@@ -184,6 +177,10 @@ Place findFolder(const FileTree& tree, int depth,
   return {};
 }
 
+bool isFolderOrArchive(const std::string& path) {
+  return detail::fileKind(path) == detail::FileKind::folder || hasEnding(path, {"zip"});
+}
+
 std::function<bool(const std::string& path)> recognizesAs(const std::string& format) {
   return [format](const std::string& path) { return datasetFormatOf(path) == format; };
 }
@@ -192,9 +189,8 @@ std::function<bool(const std::string& path)> recognizesAs(const std::string& for
 
 std::string datasetFormatOf(const std::string& path) {
   using namespace reading;  // NOLINT(google-build-using-namespace): one function
-  const bool is_folder = detail::fileKind(path) == detail::FileKind::folder;
   try {
-    if (is_folder || hasEnding(path, {"zip"})) return formatOfTree(*FileTree::open(path));
+    if (isFolderOrArchive(path)) return formatOfTree(*FileTree::open(path));
   } catch (const Error&) {  // a broken archive: whoever is asked to open it says why
     return "";
   }

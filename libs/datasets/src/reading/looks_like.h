@@ -23,6 +23,9 @@ struct Place {
 Place findFolder(const FileTree& tree, int depth,
                  const std::function<bool(const FileTree&, const std::string& folder)>& is_it);
 
+/// Whether FileTree::open() takes a path: it is a folder, or ends in ".zip".
+bool isFolderOrArchive(const std::string& path);
+
 /// DatasetFactory::recognizes for a format: whether datasetFormatOf() names it.
 std::function<bool(const std::string& path)> recognizesAs(const std::string& format);
 

@@ -21,6 +21,12 @@ namespace gslam {
 inline namespace v1 {
 namespace reading {
 
+/// Frame::has_prior and Frame::prior.
+struct Prior {
+  bool is_known = false;
+  PoseWithCovariance<SE3d> pose;
+};
+
 /// A sequence that was looked through, and not loaded.
 struct Sequence {
   /// `frame_count`, `first_stamp`, `last_stamp` and `remarks` are set by deliver(); `rate` of
@@ -33,9 +39,8 @@ struct Sequence {
   /// All samples of the sequence, by stamp.
   std::vector<ImuSample> imu;
   std::vector<GnssSample> gnss;
-  /// A prior for each frame; empty: none has one. `has_prior` is false for those whose covariance
-  /// has a negative first entry.
-  std::vector<PoseWithCovariance<SE3d>> priors;
+  /// Poses as another source has them, for each frame; empty: none has one.
+  std::vector<Prior> priors;
   /// Loads the image of a camera in a frame; no image where this frame has none of this camera.
   /// Several threads call it at once, unless `in_order`. What it throws next() throws.
   std::function<Image(std::size_t frame, std::size_t camera)> load;
@@ -64,8 +69,7 @@ std::unique_ptr<Dataset> deliver(Sequence sequence, const Prefetch& prefetch);
 
 /// Image files for Sequence::load: a name for image [frame * cameras + camera], relative to `tree`;
 /// an empty one where the frame has none. Each camera's images must be of the shape that its first
-/// one has; CameraSensor::kind is set to what it shows, unless it is `depth`, and a camera without
-/// a size is an error: use withSize() before.
+/// one has.
 struct ImageFiles {
   std::shared_ptr<const FileTree> tree;
   std::vector<std::string> names;

@@ -29,9 +29,9 @@ class FieldWriter {
 };
 
 template <class T>
-class FieldReader {
+class MemberReader {
  public:
-  FieldReader(const Svar& object, T& into) : object_(object), into_(into) {}
+  MemberReader(const Svar& object, T& into) : object_(object), into_(into) {}
   template <class Field, class Owner>  // T or one of its base classes
   void operator()(const char* name, Field Owner::*field) {
     names_ += (names_.empty() ? "" : ", ") + std::string(name);
@@ -91,7 +91,7 @@ struct SvarFields {
       detail::SvarParts::failType(value, detail::cppTypeName<T>());
     }
     T into = T();
-    detail::FieldReader<T> reader(value, into);
+    detail::MemberReader<T> reader(value, into);
     SvarTraits<T>::fields(reader);
     if (!reader.foundAll()) failUnknown(value, reader.names());
     return into;

@@ -1,0 +1,69 @@
+// sensor.yaml of the ASL layout, of cameras and inertial units.
+//
+// M. Burri et al., "The EuRoC micro aerial vehicle datasets", IJRR 35(10), 2016; the files
+// themselves. T_BS takes coordinates of the sensor to those of the body.
+#include "formats.h"
+
+namespace gslam {
+inline namespace v1 {
+namespace calibration {
+namespace {
+
+void readCamera(const Fields& root, Calibration& result) {
+  const std::string model = root.has("camera_model") ? root["camera_model"].text() : "pinhole";
+  if (model != "pinhole") root["camera_model"].fail("is '" + model + "', expected pinhole");
+  const ImageSize size = sizeOf(root["resolution"]);
+  const std::string distortion =
+      root.has("distortion_model") ? root["distortion_model"].text() : "none";
+  const std::vector<double> coefficients = root.has("distortion_coefficients")
+                                               ? root["distortion_coefficients"].numbers()
+                                               : std::vector<double>();
+  const Camera camera =
+      distortedPinhole(root, distortion, size, root["intrinsics"].numbers(4), coefficients);
+  const double rate = root.number("rate_hz", 0);
+  result.rig.cameras.push_back(makeSensor("camera", camera, root["T_BS"].pose(), rate));
+}
+
+double noiseOf(const Fields& root, const std::string& name, Calibration& result) {
+  const double value = root.number(name, 0);
+  if (value < 0) root[name].fail("is negative, expected 0 or more");
+  if (!root.has(name)) result.remarks.push_back(name + " is not in this file");
+  return value;
+}
+
+void readImu(const Fields& root, Calibration& result) {
+  result.rig.has_imu = true;
+  ImuCalibration& imu = result.rig.imu;
+  imu.T_body_imu = root["T_BS"].pose();
+  imu.rate = root.number("rate_hz", 0);
+  imu.gyro_noise = noiseOf(root, "gyroscope_noise_density", result);
+  imu.gyro_bias_walk = noiseOf(root, "gyroscope_random_walk", result);
+  imu.accel_noise = noiseOf(root, "accelerometer_noise_density", result);
+  imu.accel_bias_walk = noiseOf(root, "accelerometer_random_walk", result);
+}
+
+}  // namespace
+
+bool isEuroc(const Document& document) {
+  return document.root.hasAnyOf({"sensor_type", "T_BS"});
+}
+
+Calibration parseEuroc(const Document& document) {
+  const Fields& root = document.root;
+  Calibration result;
+  result.body = "the body of T_BS";
+  const std::string type = root["sensor_type"].text();
+  if (root.number("rate_hz", 0) < 0) root["rate_hz"].fail("is negative, expected 0 or more");
+  if (type == "camera") {
+    readCamera(root, result);
+  } else if (type == "imu") {
+    readImu(root, result);
+  } else {
+    root["sensor_type"].fail("is '" + type + "', expected camera or imu");
+  }
+  return result;
+}
+
+}  // namespace calibration
+}  // namespace v1
+}  // namespace gslam

@@ -1,0 +1,311 @@
+// One camera: whatever OpenCV opens.
+//
+//     a folder or archive of images, in natural order of their names: frame2.png before frame10.png
+//     a pattern of names, cvmono:/data/*.jpg
+//     a video, a number of a device (cvmono:0), a device file, an address (cvmono:rtsp://...)
+#include <gslam/core/opencv.h>
+#include <gslam/datasets/formats.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <opencv2/videoio.hpp>
+#include <utility>
+
+#include "../reading/decode.h"
+#include "../reading/image_list.h"
+#include "../reading/looks_like.h"
+#include "camera_parameters.h"
+#include "natural_order.h"
+
+namespace gslam {
+inline namespace v1 {
+namespace reading {
+namespace {
+
+constexpr double kUsualRate = 30;
+constexpr double kMostFrames = 1e9;
+
+struct Options {
+  double rate = 0;  // frames a second; 0: as the video says, else kUsualRate
+  int every = 1;    // takes each such frame
+  Svar parameters;
+};
+
+Options optionsOf(const Svar& parameters) {
+  Options options;
+  options.rate = parameters.get<double>("rate", 0);
+  options.every = parameters.get<int>("every", 1);
+  options.parameters = parameters;
+  if (!(options.rate >= 0 && options.rate <= 1e6)) {
+    throw ArgumentError("rate", "is not from 0 (as the video says) to 1e6 frames a second");
+  }
+  if (options.every < 1) {
+    throw ArgumentError("every", "is " + std::to_string(options.every) + ", expected 1 or more");
+  }
+  return options;
+}
+
+DatasetInfo infoOf(const std::string& name, const Options& options, Remarks& remarks) {
+  DatasetInfo info;
+  info.name = name;
+  info.format = "cvmono";
+  info.body = "the camera";
+  CameraSensor camera;
+  camera.name = "camera";
+  if (!overrideCamera(options.parameters, camera)) {
+    remarks.say("the camera is not calibrated; give one with the parameter 'camera'");
+  }
+  info.sensors.cameras.push_back(camera);
+  return info;
+}
+
+std::int64_t stampAt(std::size_t frame, double rate) {
+  return static_cast<std::int64_t>(std::llround(double(frame) * 1e9 / rate));
+}
+
+// A calibration must be for the images that there are.
+void checkCamera(const CameraSensor& sensor, int width, int height, const std::string& name) {
+  if (!sensor.camera.isValid()) return;
+  if (sensor.camera.width() == width && sensor.camera.height() == height) return;
+  throw FileError(name, "has images of " + std::to_string(width) + " x " + std::to_string(height) +
+                            " pixels, but the camera is calibrated for " +
+                            std::to_string(sensor.camera.width()) + " x " +
+                            std::to_string(sensor.camera.height()));
+}
+
+// --- images ---
+
+std::unique_ptr<Dataset> openImages(std::shared_ptr<const FileTree> tree,
+                                    std::vector<std::string> names, const std::string& title,
+                                    const Options& options) {
+  if (names.empty()) throw FileError(title, "has no images, expected png, jpg or others");
+  std::sort(names.begin(), names.end(), isBeforeNaturally);
+  Sequence sequence;
+  sequence.info = infoOf(tree->baseName(), options, sequence.remarks);
+  const double rate = options.rate > 0 ? options.rate : kUsualRate;
+  sequence.info.clock = "the number of the image, by the rate";
+  if (options.rate <= 0) sequence.remarks.say("images have no stamps: taken as 30 a second");
+  ImageFiles files{std::move(tree), {}};
+  for (std::size_t i = 0; i < names.size(); i += static_cast<std::size_t>(options.every)) {
+    sequence.stamps.push_back(stampAt(i, rate));
+    files.names.push_back(names[i]);
+  }
+  loadImageFiles(sequence, std::move(files));
+  return deliver(std::move(sequence), prefetchOf(options.parameters));
+}
+
+bool matches(const char* name, const char* pattern) {
+  for (; *pattern != '\0'; ++name, ++pattern) {
+    if (*pattern == '*') {
+      for (;; ++name) {
+        if (matches(name, pattern + 1)) return true;
+        if (*name == '\0') return false;
+      }
+    }
+    if (*name == '\0' || (*pattern != '?' && *pattern != *name)) return false;
+  }
+  return *name == '\0';
+}
+
+std::unique_ptr<Dataset> openPattern(const std::string& path, const Options& options) {
+  const std::string folder = folderOf(path), pattern = nameIn(path);
+  const std::string root = folder.empty() ? (path[0] == '/' ? "/" : ".") : folder;
+  std::shared_ptr<const FileTree> tree = FileTree::open(root);
+  std::vector<std::string> names;
+  for (const std::string& name : tree->files("")) {
+    if (isImageName(name) && matches(name.c_str(), pattern.c_str())) names.push_back(name);
+  }
+  return openImages(std::move(tree), std::move(names), path, options);
+}
+
+std::unique_ptr<Dataset> openFolder(const std::string& path, const Options& options) {
+  std::shared_ptr<const FileTree> tree = FileTree::open(path);
+  const auto hasImages = [](const FileTree& files, const std::string& folder) {
+    const std::vector<std::string>& names = files.files(folder);
+    return std::any_of(names.begin(), names.end(), isImageName);
+  };
+  const Place place = findFolder(*tree, 1, hasImages);
+  tree = below(std::move(tree), place.folder);
+  std::vector<std::string> names = tree->files("");
+  names.erase(std::remove_if(names.begin(), names.end(),
+                             [](const std::string& name) { return !isImageName(name); }),
+              names.end());
+  return openImages(std::move(tree), std::move(names), path, options);
+}
+
+// --- videos ---
+
+// A video, read frame by frame; a jump decodes what is between, or from the key frame before.
+class Video {
+ public:
+  Video(std::string path, int every) : path_(std::move(path)), every_(every), capture_(path_) {
+    if (capture_.isOpened()) return;
+    throw FileError(path_, "cannot be opened as a video, nor as anything else that OpenCV reads");
+  }
+
+  double get(cv::VideoCaptureProperties property) const { return capture_.get(property); }
+
+  Image load(std::size_t frame) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::size_t wanted = frame * static_cast<std::size_t>(every_);
+    if (wanted < next_ || wanted > next_ + kMostSkipped) jumpTo(wanted);
+    for (; next_ < wanted; ++next_) {
+      if (!capture_.grab()) fail(next_);
+    }
+    cv::Mat pixels;
+    if (!capture_.read(pixels)) fail(next_);
+    ++next_;
+    return fromOpenCv(pixels.clone());  // the decoder writes its own memory again
+  }
+
+ private:
+  static constexpr std::size_t kMostSkipped = 100;
+
+  void jumpTo(std::size_t frame) {
+    if (!capture_.set(cv::CAP_PROP_POS_FRAMES, double(frame))) {
+      capture_.open(path_);  // from its beginning
+      next_ = 0;
+      return;
+    }
+    next_ = frame;
+  }
+  [[noreturn]] void fail(std::size_t frame) {
+    next_ = frame + 1;
+    throw FileError(path_, "frame " + std::to_string(frame) +
+                               " cannot be decoded: the video ends early, or is damaged");
+  }
+
+  std::string path_;
+  int every_;
+  std::mutex mutex_;
+  cv::VideoCapture capture_;
+  std::size_t next_ = 0;
+};
+
+std::unique_ptr<Dataset> openVideo(const std::string& path, const Options& options) {
+  Sequence sequence;
+  const std::string name = nameIn(path);
+  sequence.info = infoOf(name.substr(0, name.rfind('.')), options, sequence.remarks);
+  const auto video = std::make_shared<Video>(path, options.every);
+  double rate = options.rate;
+  if (rate <= 0) {
+    rate = video->get(cv::CAP_PROP_FPS);
+    sequence.info.clock = "time from the start, by the rate that the video states";
+  } else {
+    sequence.info.clock = "the number of the frame, by the rate";
+  }
+  if (!(rate > 0 && rate < 1e6)) {
+    rate = kUsualRate;
+    sequence.remarks.say("the video does not say how many frames it has a second: taken as 30");
+  }
+  const double count = video->get(cv::CAP_PROP_FRAME_COUNT);
+  if (!(count >= 1 && count <= kMostFrames)) {
+    throw FileError(path, "does not say how many frames it has, expected a video file");
+  }
+  checkCamera(sequence.info.sensors.cameras[0], int(video->get(cv::CAP_PROP_FRAME_WIDTH)),
+              int(video->get(cv::CAP_PROP_FRAME_HEIGHT)), path);
+  sequence.info.sensors.cameras[0].kind = ImageKind::bgr;
+  for (std::size_t i = 0; i < std::size_t(count); i += std::size_t(options.every)) {
+    sequence.stamps.push_back(stampAt(i, rate));
+  }
+  sequence.load = [video](std::size_t frame, std::size_t) { return video->load(frame); };
+  sequence.in_order = true;
+  return deliver(std::move(sequence), prefetchOf(options.parameters));
+}
+
+// --- devices ---
+
+class Device final : public Dataset {
+ public:
+  Device(const std::string& what, cv::VideoCapture capture, const Options& options)
+      : capture_(std::move(capture)), what_(what), every_(options.every) {
+    Remarks remarks;
+    info_ = infoOf(what, options, remarks);
+    info_.clock = "POSIX time at which the image arrived";
+    info_.is_live = true;
+    info_.sensors.cameras[0].kind = ImageKind::bgr;
+    info_.sensors.cameras[0].rate = std::max(0.0, capture_.get(cv::CAP_PROP_FPS));
+    checkCamera(info_.sensors.cameras[0], int(capture_.get(cv::CAP_PROP_FRAME_WIDTH)),
+                int(capture_.get(cv::CAP_PROP_FRAME_HEIGHT)), what);
+    info_.remarks = remarks.sentences();
+  }
+
+  const DatasetInfo& info() const override { return info_; }
+
+  std::shared_ptr<const Frame> next() override {
+    cv::Mat pixels;
+    for (int i = 0; i < every_; ++i) {
+      if (!capture_.read(pixels) || pixels.empty()) return nullptr;  // unplugged, or closed
+    }
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    const auto frame = std::make_shared<Frame>();
+    frame->id = next_id_++;
+    frame->stamp = std::max<std::int64_t>(
+        last_stamp_ + 1, std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
+    last_stamp_ = frame->stamp;
+    CameraImage image;
+    image.image = fromOpenCv(pixels.clone());
+    image.kind = kindOf(image.image, what_);
+    image.camera = info_.sensors.cameras[0].camera;
+    image.name = info_.sensors.cameras[0].name;
+    frame->images.push_back(std::move(image));
+    return frame;
+  }
+
+  void seek(std::size_t) override { throw Error(what_ + " is a device: it cannot be wound"); }
+
+ private:
+  cv::VideoCapture capture_;
+  std::string what_;
+  int every_;
+  DatasetInfo info_;
+  std::uint64_t next_id_ = 0;
+  std::int64_t last_stamp_ = 0;
+};
+
+std::unique_ptr<Dataset> openDevice(const std::string& what, const Options& options) {
+  const bool is_number =
+      what.size() < 4 && what.find_first_not_of("0123456789") == std::string::npos;
+  cv::VideoCapture capture;
+  const bool is_open = is_number ? capture.open(std::stoi(what)) : capture.open(what);
+  if (!is_open) throw Error("cvmono: camera '" + what + "' cannot be opened");
+  return std::unique_ptr<Dataset>(new Device(what, std::move(capture), options));
+}
+
+// --- which of them ---
+
+bool isDevice(const std::string& path) {
+  const bool is_number =
+      path.size() < 4 && path.find_first_not_of("0123456789") == std::string::npos;
+  const bool is_address = path.find("://") != std::string::npos;
+  return !path.empty() && (is_number || is_address || path.compare(0, 5, "/dev/") == 0);
+}
+
+std::unique_ptr<Dataset> openCvMono(const std::string& path, const Svar& parameters) {
+  const Options options = optionsOf(parameters);
+  if (isDevice(path)) return openDevice(path, options);
+  if (nameIn(path).find_first_of("*?") != std::string::npos) return openPattern(path, options);
+  if (isFolderOrArchive(path)) return openFolder(path, options);
+  return openVideo(path, options);
+}
+
+}  // namespace
+}  // namespace reading
+
+DatasetFactory cvMonoFactory() {
+  DatasetFactory factory;
+  factory.name = "cvmono";
+  factory.description = "One camera: folders and patterns of images, videos, devices (OpenCV)";
+  factory.parameters = reading::commonParameters();
+  factory.parameters.set("rate", 0.0);
+  factory.parameters.set("every", 1);
+  reading::addCameraParameters(factory.parameters);
+  factory.recognizes = reading::recognizesAs(factory.name);
+  factory.open = reading::openCvMono;
+  return factory;
+}
+
+}  // namespace v1
+}  // namespace gslam
