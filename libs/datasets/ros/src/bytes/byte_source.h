@@ -2,6 +2,8 @@
 #ifndef GSLAM_DATASETS_ROS_SRC_BYTES_BYTE_SOURCE_H
 #define GSLAM_DATASETS_ROS_SRC_BYTES_BYTE_SOURCE_H
 
+#include <gslam/datasets_ros/export.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -13,7 +15,7 @@ inline namespace v1 {
 namespace ros {
 
 /// Bytes at offsets. Threads may share one.
-class ByteSource {
+class GSLAM_DATASETS_ROS_EXPORT ByteSource {
  public:
   virtual ~ByteSource() = default;
 
@@ -41,10 +43,10 @@ class ByteSource {
 };
 
 /// @throws FileError when it cannot be opened, or is no file
-std::shared_ptr<const ByteSource> openFile(const std::string& path);
+GSLAM_DATASETS_ROS_EXPORT std::shared_ptr<const ByteSource> openFile(const std::string& path);
 
 /// The same for bytes in memory.
-std::shared_ptr<const ByteSource> openMemory(std::vector<std::uint8_t> bytes,
+GSLAM_DATASETS_ROS_EXPORT std::shared_ptr<const ByteSource> openMemory(std::vector<std::uint8_t> bytes,
                                              const std::string& name);
 
 }  // namespace ros

@@ -45,7 +45,7 @@ ChosenTopics chooseTopics(const Recording& recording, const Svar& parameters);
 bool isUsed(const ChosenTopics& topics, std::size_t topic);
 
 /// "cam0" of "/cam0/image_raw", "camera_rgb" of "/camera/rgb/image_color/compressed".
-std::string cameraNameOf(const std::string& topic);
+GSLAM_DATASETS_ROS_EXPORT std::string cameraNameOf(const std::string& topic);
 
 }  // namespace ros
 }  // namespace v1

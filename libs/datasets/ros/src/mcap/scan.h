@@ -2,6 +2,8 @@
 #ifndef GSLAM_DATASETS_ROS_SRC_MCAP_SCAN_H
 #define GSLAM_DATASETS_ROS_SRC_MCAP_SCAN_H
 
+#include <gslam/datasets_ros/export.h>
+
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -54,7 +56,7 @@ struct ScanResult {
 /// Records of unknown kinds are passed over. Goes on behind damaged chunks, and stops where a
 /// record is longer than the file.
 /// @throws FileError when a record breaks the rules
-ScanResult scan(const ByteSource& file, const Visitor& visit);
+GSLAM_DATASETS_ROS_EXPORT ScanResult scan(const ByteSource& file, const Visitor& visit);
 
 /// @throws FileError when the file does not begin as MCAP does
 void checkMagic(const ByteSource& file);

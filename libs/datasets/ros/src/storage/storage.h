@@ -53,8 +53,8 @@ inline bool isStamp(std::uint64_t nanoseconds) noexcept {
 
 /// @{
 /// @throws FileError that says what is wrong and where
-std::unique_ptr<Storage> openBag(std::shared_ptr<const ByteSource> file);
-std::unique_ptr<Storage> openMcap(std::shared_ptr<const ByteSource> file);
+GSLAM_DATASETS_ROS_EXPORT std::unique_ptr<Storage> openBag(std::shared_ptr<const ByteSource> file);
+GSLAM_DATASETS_ROS_EXPORT std::unique_ptr<Storage> openMcap(std::shared_ptr<const ByteSource> file);
 std::unique_ptr<Storage> openDb3(const std::string& path);
 /// @}
 
