@@ -17,7 +17,9 @@ std::vector<double> numbersOf(const std::string& text, const std::string& source
                               const char* expected) {
   detail::FieldReader in(text, source, expected);
   std::vector<double> numbers;
+  std::size_t line = 0;
   while (in.nextLine()) {
+    line = in.line();
     while (!in.isLineEnd()) {
       if (numbers.size() == count) {
         in.fail(in.place(), "the file goes on after " + std::to_string(count) +
@@ -27,7 +29,7 @@ std::vector<double> numbersOf(const std::string& text, const std::string& source
     }
   }
   if (numbers.size() == count) return numbers;
-  throw ParseError(source, in.line(), 0,
+  throw ParseError(source, line, 0,
                    "the file has " + std::to_string(numbers.size()) + " numbers, expected " +
                        std::to_string(count) + ": " + expected);
 }
