@@ -4,9 +4,9 @@ namespace gslam {
 inline namespace v1 {
 
 std::vector<DatasetFactory> datasetFormats() {
-  return {kittiFactory(),    kittiRawFactory(),     tumFactory(),     iclFactory(),
-          tumMonoFactory(),  eurocFactory(),        tumViFactory(),   droneMapFactory(),
-          photosFactory(),   sevenScenesFactory(),  strechaFactory(), folderFactory(),
+  return {kittiFactory(),   kittiRawFactory(),    tumFactory(),     iclFactory(),
+          tumMonoFactory(), eurocFactory(),       tumViFactory(),   droneMapFactory(),
+          photosFactory(),  sevenScenesFactory(), strechaFactory(), folderFactory(),
           cvMonoFactory()};
 }
 
