@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "command.h"
+#include "dataset_option.h"
 #include "progress.h"
 #include "stdout_guard.h"
 
@@ -33,17 +34,6 @@ gslam::PlayOptions playOptions(const Options& options) {
   const auto count = options.get<std::size_t>("count");
   if (count > 0) play.count = count;
   return play;
-}
-
-// The defaults with what the user gave by an option, whose name errors have.
-gslam::Svar complete(const gslam::Svar& defaults, const Options& options, const char* option) {
-  const auto given = options.get<gslam::Svar>(option);
-  try {
-    return gslam::completeParameters(defaults, given);
-  } catch (const gslam::SvarError& error) {
-    const std::string name = error.path().empty() ? "" : "." + error.path();
-    throw gslam::ConfigError(std::string("--") + option + name, error.problem());
-  }
 }
 
 // The plugin that brought a SLAM system, and the file it is in.
@@ -97,10 +87,7 @@ void Session::declare(Options& options) {
       .arg<gslam::Svar>("param", gslam::Svar::object(),
                         "parameters of the SLAM system, as --param.NAME VALUE")
       .group("What");
-  options
-      .arg<gslam::Svar>("dataset-param", gslam::Svar::object(),
-                        "parameters of the dataset, as --dataset-param.NAME VALUE")
-      .group("What");
+  declareDataset(options);
   options.arg<std::string>("application", "", "one to run beside, such as a viewer")
       .shortName("a")
       .group("What");
@@ -124,8 +111,8 @@ Session::Session(const Options& options) : play_(playOptions(options)) {
   checkNeedless(options);
   const StdoutGuard guard;  // what plugins print
   const std::string name = datasetOf(options);
-  const gslam::FoundDataset found = gslam::findDataset(plugins_, name);
-  const gslam::Svar given = complete(found.factory.parameters, options, "dataset-param");
+  const gslam::FoundDataset found = findDataset(plugins_, options, name);
+  const gslam::Svar given = completeOption(found.factory.parameters, options, "dataset-param");
   dataset_ = gslam::openDataset(found, given);
   const gslam::DatasetInfo& info = dataset_->info();
   if (info.frame_count > 0 && play_.first >= info.frame_count) {
@@ -153,7 +140,7 @@ void Session::makeSlam(const Options& options) {
     factory_ = plugins_.slam(name);
     checkSensors(factory_);
   }
-  parameters_ = complete(factory_.parameters, options, "param");
+  parameters_ = completeOption(factory_.parameters, options, "param");
   if (!is_isolated) slam_ = gslam::makeSlam(factory_);
   protocol_.set("slam", gslam::Svar::object({{"given", name},
                                              {"name", factory_.name},
@@ -177,7 +164,7 @@ void Session::makeIsolatedSlam(const Options& options) {
 void Session::startApplication(const Options& options) {
   const gslam::ApplicationFactory factory =
       plugins_.application(options.get<std::string>("application"));
-  const gslam::Svar parameters = complete(factory.parameters, options, "application-param");
+  const gslam::Svar parameters = completeOption(factory.parameters, options, "application-param");
   beside_ = std::make_unique<Beside>(factory, gslam::ApplicationSetup{parameters, messenger_});
 }
 
