@@ -105,9 +105,9 @@ inline bool isSame(const gslam::Image& image, const cv::Mat& pixels) {
 
 /// Whether one of the remarks has a text in it.
 inline bool hasRemark(const gslam::DatasetInfo& info, const std::string& text) {
-  return std::any_of(
-      info.remarks.begin(), info.remarks.end(),
-      [&](const std::string& remark) { return remark.find(text) != std::string::npos; });
+  return std::any_of(info.remarks.begin(), info.remarks.end(), [&](const std::string& remark) {
+    return remark.find(text) != std::string::npos;
+  });
 }
 
 /// What an action throws, which must be a gslam::Error; empty where it throws nothing.

@@ -148,10 +148,10 @@ TEST(reading_files, remarks_count_and_list_what_was_skipped) {
   remarks.say("one thing");
   remarks.skip("others", "x");
   EXPECT_EQ(remarks.skipped("images that are lost"), 25U);
-  EXPECT_EQ(remarks.sentences(),
-            (Names{"one thing",
-                   "skipped 25 images that are lost: 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, ..., 24",
-                   "skipped 1 others: x"}));
+  EXPECT_EQ(
+      remarks.sentences(),
+      (Names{"one thing", "skipped 25 images that are lost: 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, ..., 24",
+             "skipped 1 others: x"}));
 }
 
 }  // namespace

@@ -177,8 +177,9 @@ TEST(reading_sequence, gaps_and_ground_truth_of_another_time_are_said) {
   sequence.info.ground_truth.add(2 * kStep, gslam::SE3d());
   sequence.info.ground_truth.add(7 * kStep, gslam::SE3d());
   const auto dataset = deliver(std::move(sequence), {1, 2});
-  EXPECT_TRUE(hasRemark(dataset->info(), "the frames have 1 gap of more than twice the usual 0.05 s, "
-                                         "the longest 0.55 s before number 6"));
+  EXPECT_TRUE(hasRemark(dataset->info(),
+                        "the frames have 1 gap of more than twice the usual 0.05 s, "
+                        "the longest 0.55 s before number 6"));
   EXPECT_TRUE(hasRemark(dataset->info(), "8 of 12 frames are not in the time of the ground truth"));
   EXPECT_EQ(dataset->info().frame_count, 12U);
   EXPECT_EQ(dataset->info().last_stamp, 21 * kStep);
@@ -216,8 +217,8 @@ TEST(reading_list, errors_name_the_line) {
   folder.write("word.txt", "1.0 a.png\nx b.png\n");
   folder.write("short.txt", "1.0 a.png\n\n2.0\n");
   const auto tree = FileTree::open(folder.path());
-  for (const auto& [file, line] : {std::pair<const char*, const char*>{"word.txt", ":2:1:"},
-                                   {"short.txt", ":3:"}}) {
+  for (const auto& [file, line] :
+       {std::pair<const char*, const char*>{"word.txt", ":2:1:"}, {"short.txt", ":3:"}}) {
     const std::string message = messageOf(
         [&, name = file] { (void)readImageList(*tree, name, gslam::StampUnit::seconds, ""); });
     EXPECT_NE(message.find(folder / file + line), std::string::npos) << message;
@@ -228,18 +229,19 @@ TEST(reading_list, what_is_missing_or_twice_is_counted) {
   const TempFolder folder;
   for (const char* name : {"a.png", "b.png", "c.png"}) folder.write(name, "");
   const auto tree = FileTree::open(folder.path());
-  std::vector<ListedImage> images = {{3, "c.png", 1, 0}, {1, "a.png", 2, 0}, {2, "lost.png", 3, 0},
-                                     {1, "b.png", 4, 0}};
+  std::vector<ListedImage> images = {
+      {3, "c.png", 1, 0}, {1, "a.png", 2, 0}, {2, "lost.png", 3, 0}, {1, "b.png", 4, 0}};
   Remarks remarks;
   tidy(images, *tree, "list.txt", remarks);
   ASSERT_EQ(images.size(), 2U);
   EXPECT_EQ(images[0].file, "a.png");
   EXPECT_EQ(images[1].file, "c.png");
-  EXPECT_EQ(remarks.sentences(),
-            (std::vector<std::string>{
-                "skipped 1 images that list.txt lists and that do not exist: lost.png (list.txt:3)",
-                "the images of list.txt are not in the order of their stamps: they are sorted",
-                "skipped 1 images that have the stamp of another in list.txt: b.png (list.txt:4)"}));
+  EXPECT_EQ(
+      remarks.sentences(),
+      (std::vector<std::string>{
+          "skipped 1 images that list.txt lists and that do not exist: lost.png (list.txt:3)",
+          "the images of list.txt are not in the order of their stamps: they are sorted",
+          "skipped 1 images that have the stamp of another in list.txt: b.png (list.txt:4)"}));
 }
 
 TEST(reading_list, frames_have_an_image_of_each_camera) {
@@ -271,9 +273,13 @@ Sequence withFiles(const TempFolder& folder, const std::vector<std::string>& nam
 TEST(reading_images, pixels_are_as_opencv_reads_them) {
   const TempFolder folder;
   int seed = 0;
-  for (const auto& [name, type] :
-       {std::pair<std::string, int>{"a.png", CV_8UC1}, {"b.png", CV_8UC3}, {"c.png", CV_16UC1},
-        {"d.png", CV_8UC4}, {"e.jpg", CV_8UC3}, {"f.pgm", CV_8UC1}, {"g.tiff", CV_16UC1}}) {
+  for (const auto& [name, type] : {std::pair<std::string, int>{"a.png", CV_8UC1},
+                                   {"b.png", CV_8UC3},
+                                   {"c.png", CV_16UC1},
+                                   {"d.png", CV_8UC4},
+                                   {"e.jpg", CV_8UC3},
+                                   {"f.pgm", CV_8UC1},
+                                   {"g.tiff", CV_16UC1}}) {
     folder.writeImage(name, ++seed, type);
     const auto dataset = deliver(withFiles(folder, {name, name}), {2, 4});
     const cv::Mat expected = cv::imread(folder / name, cv::IMREAD_UNCHANGED);
@@ -316,8 +322,9 @@ TEST(reading_images, a_calibration_for_another_size_is_refused) {
   sequence.stamps = {0};
   sequence.info.sensors.cameras = {namedCamera("one")};
   sequence.info.sensors.cameras[0].camera = cameraOfWords("pinhole 640x480 500 500 320 240");
-  const std::string message = messageOf(
-      [&] { loadImageFiles(sequence, {FileTree::open(folder.path()), {"0.png"}}); });
+  const std::string message = messageOf([&] {
+    loadImageFiles(sequence, {FileTree::open(folder.path()), {"0.png"}});
+  });
   EXPECT_NE(message.find("calibration of camera 'one' is for 640 x 480"), std::string::npos);
 }
 
