@@ -38,16 +38,15 @@ class Files : public Recording {
 
   std::size_t topic(const std::string& name) const override {
     const auto& all = list_.topics;
-    const auto found = std::find_if(all.begin(), all.end(), [&](const RecordedTopic& topic) {
-      return topic.name == name;
-    });
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const RecordedTopic& topic) { return topic.name == name; });
     if (found != all.end()) return std::size_t(found - all.begin());
     std::string names;
     for (const RecordedTopic& topic : all) {
       names += (names.empty() ? "" : ", ") + topic.name + " (" + topic.type + ")";
     }
-    throw FileError(path_, "has no topic '" + name + "'; there are: " +
-                               (names.empty() ? "none" : names));
+    throw FileError(path_,
+                    "has no topic '" + name + "'; there are: " + (names.empty() ? "none" : names));
   }
 
   std::vector<MessageRef> messages(const std::vector<std::size_t>& topics) const override {

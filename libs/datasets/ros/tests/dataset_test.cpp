@@ -49,8 +49,9 @@ std::vector<Recorded> rigMessages() {
   right.model = "equidistant";
   right.d = {0.1, 0.01, 0.001, 0.0001};
   // The camera looks along x of the unit: its z is their x, its x their -y.
-  all.push_back({"/tf_static", "tf2_msgs/TFMessage", kStart,
-                 transformBytes(kCoding, kStart, "imu", "left", {0.1, 0.2, 0.3, -0.5, 0.5, -0.5, 0.5})});
+  all.push_back(
+      {"/tf_static", "tf2_msgs/TFMessage", kStart,
+       transformBytes(kCoding, kStart, "imu", "left", {0.1, 0.2, 0.3, -0.5, 0.5, -0.5, 0.5})});
   all.push_back({"/tf_static", "tf2_msgs/TFMessage", kStart,
                  transformBytes(kCoding, kStart, "left", "right", {0.5, 0, 0, 0, 0, 0, 1})});
   all.push_back({"/tf_static", "tf2_msgs/TFMessage", kStart,
@@ -187,9 +188,8 @@ TEST(ros_dataset, topics_that_parameters_name) {
   EXPECT_EQ(one->info().body, "camera 'right' (frame 'right')");
   const auto both = open(path, Svar::object({{"images", "/right/image_raw, /left/image_raw"}}));
   EXPECT_EQ(both->info().sensors.cameras[0].name, "right");
-  const auto listed = open(
-      path, Svar::object({{"images", Svar::array({"/left/image_raw"})},
-                          {"ground_truth", "/tf_static:gps.imu"}}));
+  const auto listed = open(path, Svar::object({{"images", Svar::array({"/left/image_raw"})},
+                                               {"ground_truth", "/tf_static:gps.imu"}}));
   EXPECT_EQ(listed->info().sensors.cameras.size(), 1U);
   ASSERT_EQ(listed->info().ground_truth.size(), 1U);
   EXPECT_EQ(listed->info().ground_truth[0].pose.translation()[2], -3);
@@ -215,8 +215,8 @@ TEST(ros_dataset, names_that_are_wrong_are_errors_that_list_what_there_is) {
 }
 
 TEST(ros_dataset, stamps_when_messages_were_received) {
-  const auto dataset = open(writeMcap("rig.mcap", rigMessages()),
-                            Svar::object({{"stamps", "received"}}));
+  const auto dataset =
+      open(writeMcap("rig.mcap", rigMessages()), Svar::object({{"stamps", "received"}}));
   EXPECT_EQ(dataset->info().first_stamp, stampOf(0) + 3 * kMs);
 }
 
@@ -252,8 +252,8 @@ TEST(ros_dataset, stamps_that_are_zero_twice_or_out_of_order) {
   std::vector<Recorded> messages = {imageOf(0, 2), imageOf(0, 1), imageOf(0, 2), imageOf(0, 3)};
   messages[0].received = messages[1].received - 1;
   messages.push_back(messages[0]);
-  messages.back().bytes = imageBytes(kCoding, 0, "left", kWidth, kHeight, "mono8", kWidth, false,
-                                     pixelsOf(0, 9));
+  messages.back().bytes =
+      imageBytes(kCoding, 0, "left", kWidth, kHeight, "mono8", kWidth, false, pixelsOf(0, 9));
   messages.back().received = stampOf(9);
   const auto dataset = open(writeMcap("order.mcap", messages));
   EXPECT_EQ(dataset->info().frame_count, 4U);

@@ -1,4 +1,5 @@
-// Writes messages byte by byte, as the specifications have them: nothing is shared with the readers.
+// Writes messages byte by byte, as the specifications have them: nothing is shared with the
+// readers.
 #ifndef GSLAM_DATASETS_ROS_TESTS_ENCODER_H
 #define GSLAM_DATASETS_ROS_TESTS_ENCODER_H
 
@@ -89,8 +90,7 @@ inline std::vector<std::uint8_t> odometryBytes(Coding coding, std::int64_t stamp
 }
 
 inline std::vector<std::uint8_t> transformBytes(Coding coding, std::int64_t stamp,
-                                                const std::string& parent,
-                                                const std::string& child,
+                                                const std::string& parent, const std::string& child,
                                                 const std::vector<double>& xyz_xyzw) {
   Encoder out(coding);
   out.u32(1).header(stamp, parent).text(child).f64s(xyz_xyzw);

@@ -1,4 +1,5 @@
-// All files of the conformance suite of MCAP (https://github.com/foxglove/mcap/tree/main/tests/conformance).
+// All files of the conformance suite of MCAP
+// (https://github.com/foxglove/mcap/tree/main/tests/conformance).
 //
 // The data has what each file must contain, as JSON, and of the file itself Git LFS' pointer: its
 // size and SHA-256. So the bytes are written here from the JSON; that these have the size and the
@@ -100,8 +101,8 @@ std::vector<std::uint8_t> write(const Expected& r, const std::vector<std::uint8_
     return mcap_writer::record(0x05, out.bytes);
   }
   if (r.type == "ChunkIndex") {
-    for (const char* name : {"message_start_time", "message_end_time", "chunk_start_offset",
-                             "chunk_length"}) {
+    for (const char* name :
+         {"message_start_time", "message_end_time", "chunk_start_offset", "chunk_length"}) {
       out.u64(r.number(name));
     }
     out.block(numberMap(r, "message_index_offsets")).u64(r.number("message_index_length"));
@@ -111,8 +112,8 @@ std::vector<std::uint8_t> write(const Expected& r, const std::vector<std::uint8_
   }
   if (r.type == "Statistics") {
     out.u64(r.number("message_count")).u16(r.number("schema_count"));
-    for (const char* name : {"channel_count", "attachment_count", "metadata_count",
-                             "chunk_count"}) {
+    for (const char* name :
+         {"channel_count", "attachment_count", "metadata_count", "chunk_count"}) {
       out.u32(r.number(name));
     }
     out.u64(r.number("message_start_time")).u64(r.number("message_end_time"));

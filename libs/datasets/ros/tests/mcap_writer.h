@@ -69,17 +69,16 @@ inline Bytes packed(const Bytes& bytes, const std::string& compression) {
   }
   if (compression == "lz4") {
     Bytes out(LZ4F_compressFrameBound(bytes.size(), nullptr));
-    out.resize(
-        LZ4F_compressFrame(out.data(), out.size(), bytes.data(), bytes.size(), nullptr));
+    out.resize(LZ4F_compressFrame(out.data(), out.size(), bytes.data(), bytes.size(), nullptr));
     return out;
   }
   return bytes;
 }
 
 struct Shape {
-  std::string compression;         // "", lz4 or zstd
+  std::string compression;  // "", lz4 or zstd
   bool has_chunks = true;
-  bool has_index = true;           // message indexes and the summary
+  bool has_index = true;  // message indexes and the summary
   bool has_crc = true;
   bool is_closed = true;           // with DataEnd, summary and footer
   std::size_t chunk_messages = 3;  // in a chunk

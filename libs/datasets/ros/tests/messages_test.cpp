@@ -48,21 +48,20 @@ TEST(messages, imu) {
 
 // Bytes of the specification's rules by hand, so that the encoder is not alone in what it thinks.
 TEST(messages, cdr_by_hand) {
-  const RawBytes bytes = {0, 1, 0, 0,                              // little-endian CDR
-                          2, 0, 0, 0,                              // seconds
-                          3, 0, 0, 0,                              // nanoseconds
-                          2, 0, 0, 0, 'a', 0,                      // "a", with its zero
-                          0, 0,                                    // to a multiple of 8: 16
-                          0, 0, 0, 0, 0, 0, 0xF0, 0x3F,            // 1
-                          0, 0, 0, 0, 0, 0, 0, 0x40,               // 2
-                          0, 0, 0, 0, 0, 0, 0x08, 0x40};           // 3
+  const RawBytes bytes = {0, 1, 0, 0,                       // little-endian CDR
+                          2, 0, 0, 0,                       // seconds
+                          3, 0, 0, 0,                       // nanoseconds
+                          2, 0, 0, 0, 'a', 0,               // "a", with its zero
+                          0, 0,                             // to a multiple of 8: 16
+                          0, 0, 0, 0, 0,   0, 0xF0, 0x3F,   // 1
+                          0, 0, 0, 0, 0,   0, 0,    0x40,   // 2
+                          0, 0, 0, 0, 0,   0, 0x08, 0x40};  // 3
   const auto message = decoded<PointStamped>(bytes, Coding::little_cdr);
   EXPECT_EQ(message.header.stamp, 2000000003);
   EXPECT_EQ(message.header.frame_id, "a");
   EXPECT_EQ(message.point, (Triple{1, 2, 3}));
   // XCDR2 has doubles at multiples of 4: here 20, where 8 would want 24.
-  RawBytes xcdr2 = {0, 7, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0, 5, 0, 0, 0,
-                    'a', 'b', 'c', 'd', 0, 0, 0, 0};
+  RawBytes xcdr2 = {0, 7, 0, 0, 2, 0, 0, 0, 3, 0, 0, 0, 5, 0, 0, 0, 'a', 'b', 'c', 'd', 0, 0, 0, 0};
   xcdr2.insert(xcdr2.end(), bytes.end() - 24, bytes.end());
   EXPECT_EQ(decoded<PointStamped>(xcdr2, Coding::little_cdr).point, (Triple{1, 2, 3}));
 }
@@ -134,8 +133,9 @@ TEST(messages, every_prefix_ends_early) {
 TEST(messages, a_count_beyond_the_message_takes_no_memory) {
   const RawBytes bytes = {0, 1, 0, 0, 0xFF, 0xFF, 0xFF, 0xFF, 1, 2};
   const std::string error = errorOf([&] { decoded<TfMessage>(bytes, Coding::little_cdr); });
-  EXPECT_EQ(error, "test message, byte 8: a list should have 4294967295 elements, but there are 2 "
-                   "bytes left");
+  EXPECT_EQ(error,
+            "test message, byte 8: a list should have 4294967295 elements, but there are 2 "
+            "bytes left");
 }
 
 // --- images --------------------------------------------------------------------------------------
@@ -169,8 +169,8 @@ TEST(images, every_encoding_step_and_byte_order_gives_the_pixels) {
         const int step = kWidth * one.bytes + gap;
         const RawBytes data = noise(std::size_t(step * kHeight), 3);
         const Coding coding = is_big ? Coding::big_cdr : Coding::ros1;
-        const RawBytes bytes = imageBytes(coding, kStamp, "cam", kWidth, kHeight, one.encoding,
-                                          step, is_big, data);
+        const RawBytes bytes =
+            imageBytes(coding, kStamp, "cam", kWidth, kHeight, one.encoding, step, is_big, data);
         const DecodedImage image = decodeRaw(decoded<ImageMessage>(bytes, coding), false, kName);
         ASSERT_EQ(image.image.type(), one.type);
         ASSERT_EQ(image.image.channels(), one.channels);
@@ -292,8 +292,8 @@ TEST(images, compressed_depth_of_16_bits_and_of_floats) {
   EXPECT_TRUE(std::isnan(metres.image.at<float>(3, 2)));
   const double wanted = 20000.0 / (stored.at<std::uint16_t>(1, 1) + 10.0);
   EXPECT_NEAR(metres.image.at<float>(1, 1), wanted, 1e-5);
-  EXPECT_TRUE(has(errorOf([&] { decodeAs("16UC1; compressedDepth rvl", withHead(0, 0, png)); }),
-                  "RVL"));
+  EXPECT_TRUE(
+      has(errorOf([&] { decodeAs("16UC1; compressedDepth rvl", withHead(0, 0, png)); }), "RVL"));
   EXPECT_TRUE(has(errorOf([&] { decodeAs("16UC1; compressedDepth", {1, 2}); }), "12 bytes"));
   EXPECT_NE(errorOf([&] { decodeAs("16UC1; compressedDepth", withHead(0, 0, {})); }), "");
   EXPECT_NE(errorOf([&] { decodeAs("jpeg", {}); }), "");
@@ -315,8 +315,8 @@ TEST(cameras, every_model_of_ros) {
   EXPECT_EQ(cameraOf(infoOf(fields), false, kName).modelName(), "pinhole");
   fields.d = {0.1, -0.2, 0.001, 0.002, 0};
   const gslam::Camera four = cameraOf(infoOf(fields), false, kName);
-  EXPECT_EQ(four, gslam::Camera::fromParameters(
-                      "radtan", 640, 480, {500, 510, 320, 240, 0.1, -0.2, 0.001, 0.002}));
+  EXPECT_EQ(four, gslam::Camera::fromParameters("radtan", 640, 480,
+                                                {500, 510, 320, 240, 0.1, -0.2, 0.001, 0.002}));
   fields.d[4] = 0.3;
   EXPECT_EQ(cameraOf(infoOf(fields), false, kName).parameterCount(), 9U);
   fields.model = "rational_polynomial";

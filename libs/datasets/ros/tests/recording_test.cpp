@@ -50,8 +50,7 @@ std::vector<Recorded> someMessages() {
   std::vector<Recorded> messages;
   for (int i = 0; i < 20; ++i) {
     const std::int64_t stamp = 1000000000LL * (i + 5);
-    messages.push_back({"/imu", "sensor_msgs/Imu", stamp,
-                        imuBytes(Coding::little_cdr, stamp, i)});
+    messages.push_back({"/imu", "sensor_msgs/Imu", stamp, imuBytes(Coding::little_cdr, stamp, i)});
     if (i % 3 != 0) continue;
     messages.push_back({"/noise", "std_msgs/String", stamp + 7,
                         noise(std::size_t(40 + 100 * i), std::uint32_t(i))});
@@ -146,8 +145,7 @@ TEST(recording, every_shape_of_mcap_gives_the_same_messages) {
       shape.has_crc = (features & 4) == 0;
       shape.has_strangers = (features & 8) != 0;
       SCOPED_TRACE(compression + " " + std::to_string(features));
-      const auto recording =
-          openBytes("shape.mcap", mcap_writer::write(someMessages(), shape));
+      const auto recording = openBytes("shape.mcap", mcap_writer::write(someMessages(), shape));
       expectSame(contentOf(*recording), asWritten());
       const bool is_indexed = shape.has_chunks && shape.has_index;
       EXPECT_EQ(recording->remarks().empty(), is_indexed);
@@ -304,10 +302,10 @@ TEST(recording, what_is_no_recording_is_no_recording) {
   EXPECT_FALSE(gslam::isRecording(path));
   EXPECT_FALSE(gslam::isRecording(folderOfTests() + "missing.bag"));
   EXPECT_TRUE(has(errorOf([&] { Recording::open(path); }), "expected a file that ends in .bag"));
-  EXPECT_TRUE(has(errorOf([&] { Recording::open(folderOfTests() + "missing.bag"); }),
-                  "cannot be opened"));
-  writeFile(folderOfTests() + "old.bag", {'#', 'R', 'O', 'S', 'B', 'A', 'G', ' ', 'V', '1', '.',
-                                          '2', '\n'});
+  EXPECT_TRUE(
+      has(errorOf([&] { Recording::open(folderOfTests() + "missing.bag"); }), "cannot be opened"));
+  writeFile(folderOfTests() + "old.bag",
+            {'#', 'R', 'O', 'S', 'B', 'A', 'G', ' ', 'V', '1', '.', '2', '\n'});
   EXPECT_TRUE(has(errorOf([] { Recording::open(folderOfTests() + "old.bag"); }),
                   "another version ('#ROSBAG V1.2')"));
 }

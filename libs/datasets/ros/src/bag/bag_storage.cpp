@@ -165,8 +165,8 @@ class BagStorage : public Storage {
     const std::uint32_t count = fields.number<std::uint32_t>("count");
     if (fields.number<std::uint32_t>("ver") != 1 ||
         std::uint64_t(count) * kIndexEntry != record.size) {
-      file_->fail(record.header_offset - 4, "the index of a chunk has not the size of " +
-                                                std::to_string(count) + " entries");
+      file_->fail(record.header_offset - 4,
+                  "the index of a chunk has not the size of " + std::to_string(count) + " entries");
     }
     const auto data = file_->read(record.data, record.size);
     ByteReader in(Bytes(data), file_->name(), record.data);

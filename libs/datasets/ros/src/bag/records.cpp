@@ -44,7 +44,8 @@ std::int64_t Fields::stamp(const char* name) const {
 void Fields::fail(const char* name, std::size_t size) const {
   std::string expected = std::string("expected a field '") + name + "'";
   if (size > 0) expected += " of " + std::to_string(size) + " bytes";
-  throw FileError(place_, "at byte " + std::to_string(offset_) + ": " + expected + " in the header");
+  throw FileError(place_,
+                  "at byte " + std::to_string(offset_) + ": " + expected + " in the header");
 }
 
 std::int64_t stampOf(std::uint64_t time) noexcept {

@@ -46,8 +46,8 @@ class GSLAM_DATASETS_ROS_EXPORT ByteSource {
 GSLAM_DATASETS_ROS_EXPORT std::shared_ptr<const ByteSource> openFile(const std::string& path);
 
 /// The same for bytes in memory.
-GSLAM_DATASETS_ROS_EXPORT std::shared_ptr<const ByteSource> openMemory(std::vector<std::uint8_t> bytes,
-                                             const std::string& name);
+GSLAM_DATASETS_ROS_EXPORT std::shared_ptr<const ByteSource> openMemory(
+    std::vector<std::uint8_t> bytes, const std::string& name);
 
 }  // namespace ros
 }  // namespace v1

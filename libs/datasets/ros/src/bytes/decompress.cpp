@@ -35,8 +35,8 @@ class Output {
   std::vector<std::uint8_t> finish(bool must_be_full) {
     if (used_ > most_ || (must_be_full && used_ != most_)) {
       throw Error("unpacks to " + std::string(used_ > most_ ? "more than " : "") +
-                  std::to_string(std::min<std::uint64_t>(used_, most_)) +
-                  " bytes, but should to " + std::to_string(most_));
+                  std::to_string(std::min<std::uint64_t>(used_, most_)) + " bytes, but should to " +
+                  std::to_string(most_));
     }
     bytes_.resize(used_);
     return std::move(bytes_);
@@ -46,7 +46,8 @@ class Output {
  private:
   // One byte more than there may be, so that too much is seen.
   void grow() {
-    const std::uint64_t wanted = std::max<std::uint64_t>(std::uint64_t(bytes_.size()) * 2, 1U << 16);
+    const std::uint64_t wanted =
+        std::max<std::uint64_t>(std::uint64_t(bytes_.size()) * 2, 1U << 16);
     bytes_.resize(static_cast<std::size_t>(std::min(wanted, most_ + 1)));
   }
 

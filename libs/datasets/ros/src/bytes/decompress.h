@@ -24,8 +24,10 @@ constexpr std::uint64_t kMostUnpacked = std::uint64_t(1) << 30;
 /// @param unpacked  bytes that must come out
 /// @throws Error without the name of a file when other bytes come out, or the block is damaged
 GSLAM_DATASETS_ROS_EXPORT std::vector<std::uint8_t> unpackLz4(Bytes packed, std::uint64_t unpacked);
-GSLAM_DATASETS_ROS_EXPORT std::vector<std::uint8_t> unpackZstd(Bytes packed, std::uint64_t unpacked);
-GSLAM_DATASETS_ROS_EXPORT std::vector<std::uint8_t> unpackBzip2(Bytes packed, std::uint64_t unpacked);
+GSLAM_DATASETS_ROS_EXPORT std::vector<std::uint8_t> unpackZstd(Bytes packed,
+                                                               std::uint64_t unpacked);
+GSLAM_DATASETS_ROS_EXPORT std::vector<std::uint8_t> unpackBzip2(Bytes packed,
+                                                                std::uint64_t unpacked);
 /// @}
 
 /// A zstd frame whose size is not said elsewhere.

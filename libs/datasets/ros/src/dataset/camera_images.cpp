@@ -28,8 +28,8 @@ DecodedImage decodeImage(const Recording& recording, const CameraTopic& topic,
 void readCalibration(const Recording& recording, CameraImages& camera, reading::Remarks& remarks) {
   const std::string& topic = recording.topics()[camera.topic.images].name;
   if (camera.topic.info == kNoTopic) {
-    remarks.say("camera '" + camera.sensor.name + "' has no calibration: there is no CameraInfo beside " +
-                topic);
+    remarks.say("camera '" + camera.sensor.name +
+                "' has no calibration: there is no CameraInfo beside " + topic);
     return;
   }
   const std::vector<MessageRef> messages = recording.messages({camera.topic.info});
@@ -81,8 +81,8 @@ std::vector<StampedImage> readStamps(const Recording& recording, std::size_t top
     remarks.say("messages of " + name + " are out of order: they were sorted by their stamps");
     std::stable_sort(images.begin(), images.end(), earlier);
   }
-  const auto end = std::unique(
-      images.begin(), images.end(), [&](const StampedImage& a, const StampedImage& b) {
+  const auto end =
+      std::unique(images.begin(), images.end(), [&](const StampedImage& a, const StampedImage& b) {
         if (a.stamp != b.stamp) return false;
         remarks.skip("messages of " + name + " with the stamp of another",
                      "at " + secondsText(b.stamp) + " s");

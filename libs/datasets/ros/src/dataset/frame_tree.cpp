@@ -37,9 +37,8 @@ void FrameTree::addTopics(const Recording& recording, const std::vector<std::siz
         if (!std::isfinite(t[0] + t[1] + t[2])) throw ArgumentError("translation", "is not finite");
         add(one.header.frame_id, one.child_frame_id, pose);
       } catch (const ArgumentError& error) {
-        remarks.skip("static transforms that are none", one.header.frame_id + " to " +
-                                                            one.child_frame_id + ": " +
-                                                            error.what());
+        remarks.skip("static transforms that are none",
+                     one.header.frame_id + " to " + one.child_frame_id + ": " + error.what());
       }
     }
   }

@@ -26,8 +26,8 @@ struct ImageGroup {
 /// @param stamps     for each camera, ascending, none twice
 /// @param tolerance  nanoseconds
 /// @return by stamp, none twice
-GSLAM_DATASETS_ROS_EXPORT std::vector<ImageGroup> groupImages(const std::vector<std::vector<std::int64_t>>& stamps,
-                                    std::int64_t tolerance);
+GSLAM_DATASETS_ROS_EXPORT std::vector<ImageGroup> groupImages(
+    const std::vector<std::vector<std::int64_t>>& stamps, std::int64_t tolerance);
 
 /// Whether each camera has an image.
 GSLAM_DATASETS_ROS_EXPORT bool isComplete(const ImageGroup& group) noexcept;

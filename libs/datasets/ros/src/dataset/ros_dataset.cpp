@@ -87,8 +87,8 @@ class Builder {
   reading::Sequence run() {
     sequence_.info.name = nameOfRecording(recording_->path());
     sequence_.info.format = "ros";
-    sequence_.info.clock =
-        options_.by_header ? "ROS time of the message headers" : "ROS time when messages were received";
+    sequence_.info.clock = options_.by_header ? "ROS time of the message headers"
+                                              : "ROS time when messages were received";
     readCameras();
     readSensors();
     readPoseTopics();
@@ -165,8 +165,9 @@ class Builder {
     SE3d pose;
     if (frame == body_ && !frame.empty()) return pose;
     if (!frame.empty() && !body_.empty() && fixed_.find(body_, frame, pose)) return pose;
-    remarks().say("where " + what + " is on the body is not known: no static transform leads from '" +
-                  body_ + "' to '" + frame + "', the identity was taken");
+    remarks().say("where " + what +
+                  " is on the body is not known: no static transform leads from '" + body_ +
+                  "' to '" + frame + "', the identity was taken");
     return SE3d();
   }
 
@@ -222,10 +223,12 @@ class Builder {
     }
     if (incomplete == 0) return;
     remarks().say(std::to_string(incomplete) + " of " + std::to_string(all.size()) +
-                  " frames lack an image of a camera" + (options_.complete ? ": they were skipped" : ""));
+                  " frames lack an image of a camera" +
+                  (options_.complete ? ": they were skipped" : ""));
     if (!sequence_.stamps.empty()) return;
-    throw FileError(recording_->path(), "no frame has an image of each camera within the tolerance; "
-                                        "a larger `tolerance`, or fewer `images`, may help");
+    throw FileError(recording_->path(),
+                    "no frame has an image of each camera within the tolerance; "
+                    "a larger `tolerance`, or fewer `images`, may help");
   }
 
   // Stamps of frames where there are no images.
@@ -261,7 +264,8 @@ class Builder {
     }
     throw FileError(recording_->path(),
                     "has no images, poses, satellite positions or inertial samples that can be "
-                    "read; its topics are: " + (names.empty() ? "none" : names));
+                    "read; its topics are: " +
+                        (names.empty() ? "none" : names));
   }
 
   void addPriors() {

@@ -217,9 +217,8 @@ class Chooser {
   }
   bool isNameBefore(std::size_t end) const {
     const auto last = result_.cameras.begin() + std::ptrdiff_t(end);
-    return std::any_of(result_.cameras.begin(), last, [&](const CameraTopic& other) {
-      return other.name == last->name;
-    });
+    return std::any_of(result_.cameras.begin(), last,
+                       [&](const CameraTopic& other) { return other.name == last->name; });
   }
 
   // --- others ------------------------------------------------------------------------------------

@@ -21,7 +21,7 @@ constexpr std::size_t kNoTopic = static_cast<std::size_t>(-1);
 struct CameraTopic {
   std::size_t images = kNoTopic;
   std::size_t info = kNoTopic;
-  std::string name;         ///< of the camera: "cam0" of "/cam0/image_raw"
+  std::string name;  ///< of the camera: "cam0" of "/cam0/image_raw"
   bool is_compressed = false;
   bool is_depth = false;      ///< by its name
   bool is_rectified = false;  ///< by its name

@@ -115,9 +115,9 @@ struct DataEnd {
   std::uint32_t data_section_crc = 0;
 };
 
-using Record = std::variant<Header, Footer, Schema, Channel, Message, MessageIndex, ChunkIndex,
-                            Attachment, AttachmentIndex, Statistics, Metadata, MetadataIndex,
-                            SummaryOffset, DataEnd>;
+using Record =
+    std::variant<Header, Footer, Schema, Channel, Message, MessageIndex, ChunkIndex, Attachment,
+                 AttachmentIndex, Statistics, Metadata, MetadataIndex, SummaryOffset, DataEnd>;
 
 /// Reads the content of a record; bytes behind its last field are left alone, as the format wants.
 /// @param content  views it; so do the data of the result

@@ -80,8 +80,8 @@ RecordHead readHead(const ByteSource& file, std::uint64_t offset) {
 
 Chunk readChunkHead(const ByteSource& file, const RecordHead& head) {
   if (Opcode(head.opcode) != Opcode::chunk) {
-    file.fail(head.content - kHeadSize, "expected a chunk, found a record of kind " +
-                                            std::to_string(head.opcode));
+    file.fail(head.content - kHeadSize,
+              "expected a chunk, found a record of kind " + std::to_string(head.opcode));
   }
   constexpr std::uint64_t kMostHead = 256;  // the name of the compression is short
   const auto raw = file.read(head.content, std::min(head.size, kMostHead));
@@ -201,8 +201,8 @@ class Scanner {
     const std::uint64_t left = file_.size() - offset;
     if (left >= sizeof(magic)) file_.read(offset, magic, sizeof(magic));
     if (left >= sizeof(magic) && std::memcmp(magic, kMagic, sizeof(magic)) == 0) return;
-    result_.early_end = file_.name() + ": at byte " + std::to_string(offset) +
-                        ": does not end as MCAP files do";
+    result_.early_end =
+        file_.name() + ": at byte " + std::to_string(offset) + ": does not end as MCAP files do";
   }
 
   const ByteSource& file_;

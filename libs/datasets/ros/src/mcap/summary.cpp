@@ -92,8 +92,8 @@ Summary readSummary(const ByteSource& file) {
     } else if (footer.summary_start == 0) {
       summary.problem = "it has no summary";
     } else if (footer.summary_start < sizeof(kMagic) || footer.summary_start > offset) {
-      summary.problem = "its summary should begin at byte " +
-                        std::to_string(footer.summary_start) + ", where there is none";
+      summary.problem = "its summary should begin at byte " + std::to_string(footer.summary_start) +
+                        ", where there is none";
     } else {
       readRecords(file, footer.summary_start, offset, footer, summary);
     }

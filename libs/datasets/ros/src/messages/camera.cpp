@@ -23,8 +23,9 @@ std::vector<double> coefficients(const std::vector<double>& d, std::initializer_
     values.resize(std::size_t(count));
     return values;
   }
-  throw ParseError(name, 0, 0, "the distortion model '" + info.distortion_model + "' has " +
-                                   std::to_string(d.size()) + " coefficients, which are too many");
+  throw ParseError(name, 0, 0,
+                   "the distortion model '" + info.distortion_model + "' has " +
+                       std::to_string(d.size()) + " coefficients, which are too many");
 }
 
 Camera makeCamera(const char* model, const CameraInfo& info, const std::vector<double>& focal,
@@ -33,8 +34,9 @@ Camera makeCamera(const char* model, const CameraInfo& info, const std::vector<d
   values.insert(values.end(), distortion.begin(), distortion.end());
   constexpr std::uint32_t kMost = 1U << 20;
   if (info.width == 0 || info.height == 0 || info.width > kMost || info.height > kMost) {
-    throw ParseError(name, 0, 0, "the calibration is of " + std::to_string(info.width) + " x " +
-                                     std::to_string(info.height) + " pixels");
+    throw ParseError(name, 0, 0,
+                     "the calibration is of " + std::to_string(info.width) + " x " +
+                         std::to_string(info.height) + " pixels");
   }
   try {
     return Camera::fromParameters(model, int(info.width), int(info.height), values);
@@ -59,16 +61,17 @@ Camera fullCamera(const CameraInfo& info, const std::string& name) {
     const auto values = coefficients(info.d, {4, 5, 8, 12, 14}, info, name);
     return makeCamera("radtan", info, focal, values, name);
   }
-  throw ParseError(name, 0, 0, "the distortion model is '" + model.substr(0, 60) +
-                                   "', expected plumb_bob, rational_polynomial or equidistant");
+  throw ParseError(name, 0, 0,
+                   "the distortion model is '" + model.substr(0, 60) +
+                       "', expected plumb_bob, rational_polynomial or equidistant");
 }
 
 // What is recorded of the full image: a part of it, with pixels put together.
 Camera recordedCamera(Camera camera, const CameraInfo& info) {
   const bool has_region = info.roi_width > 0 && info.roi_height > 0;
   if (has_region) {
-    camera = camera.cropped(int(info.roi_x), int(info.roi_y), int(info.roi_width),
-                            int(info.roi_height));
+    camera =
+        camera.cropped(int(info.roi_x), int(info.roi_y), int(info.roi_width), int(info.roi_height));
   }
   const int x = std::max(1, int(info.binning_x)), y = std::max(1, int(info.binning_y));
   if (x > 1 || y > 1) {
@@ -83,11 +86,12 @@ Camera cameraOf(const CameraInfo& info, bool is_rectified, const std::string& na
   const auto is_zero = [](double value) { return value == 0; };
   if (std::all_of(info.k.begin(), info.k.end(), is_zero)) return Camera();
   constexpr std::uint32_t kMost = 1U << 20;
-  for (const std::uint32_t value : {info.roi_x, info.roi_y, info.roi_width, info.roi_height,
-                                    info.binning_x, info.binning_y}) {
+  for (const std::uint32_t value :
+       {info.roi_x, info.roi_y, info.roi_width, info.roi_height, info.binning_x, info.binning_y}) {
     if (value > kMost) {
-      throw ParseError(name, 0, 0, "binning or region of the calibration is " +
-                                       std::to_string(value) + ", larger than any image");
+      throw ParseError(name, 0, 0,
+                       "binning or region of the calibration is " + std::to_string(value) +
+                           ", larger than any image");
     }
   }
   const bool has_p = is_rectified && info.p[0] != 0;

@@ -3,7 +3,6 @@
 #define GSLAM_DATASETS_ROS_SRC_MESSAGES_CAMERA_H
 
 #include <gslam/datasets_ros/export.h>
-
 #include <gslam/geometry/camera.h>
 
 #include <string>
@@ -20,7 +19,8 @@ namespace ros {
 /// @param name          of the message for errors
 /// @return no camera where K is zero, which stands for "not calibrated"
 /// @throws ParseError when the model is not known, or the values make no camera
-GSLAM_DATASETS_ROS_EXPORT Camera cameraOf(const CameraInfo& info, bool is_rectified, const std::string& name);
+GSLAM_DATASETS_ROS_EXPORT Camera cameraOf(const CameraInfo& info, bool is_rectified,
+                                          const std::string& name);
 
 }  // namespace ros
 }  // namespace v1

@@ -55,8 +55,9 @@ const Encoding& encodingOf(const std::string& encoding, const std::string& name)
     if (encoding == known.name) return known;
     names += (names.empty() ? "" : ", ") + std::string(known.name);
   }
-  throw ParseError(name, 0, 0, "the encoding of the image is '" + encoding.substr(0, 60) +
-                                   "', expected one of " + names);
+  throw ParseError(
+      name, 0, 0,
+      "the encoding of the image is '" + encoding.substr(0, 60) + "', expected one of " + names);
 }
 
 void setKind(DecodedImage& result, ImageKind kind, bool is_depth) {
@@ -101,11 +102,12 @@ DecodedImage decodeRaw(const ImageMessage& message, bool is_depth, const std::st
   constexpr std::uint32_t kMost = 1U << 20;
   if (message.width == 0 || message.height == 0 || message.width > kMost ||
       message.height > kMost) {
-    throw ParseError(name, 0, 0, "the image has " + sizeText(message) + " pixels, expected 1 to " +
-                                     std::to_string(kMost) + " a side");
+    throw ParseError(name, 0, 0,
+                     "the image has " + sizeText(message) + " pixels, expected 1 to " +
+                         std::to_string(kMost) + " a side");
   }
-  const std::uint64_t row = std::uint64_t(message.width) * unsigned(encoding.channels) *
-                            pixelTypeSize(encoding.type);
+  const std::uint64_t row =
+      std::uint64_t(message.width) * unsigned(encoding.channels) * pixelTypeSize(encoding.type);
   // Some writers leave the gap behind the last row out.
   const std::uint64_t least = std::uint64_t(message.step) * (message.height - 1) + row;
   if (message.step < row || message.data.size() < least) {
@@ -168,8 +170,8 @@ DecodedImage decodeCompressedDepth(const CompressedImageMessage& message, const 
   result.image = reading::decodeImage(
       std::vector<std::uint8_t>(message.data.begin() + kHead, message.data.end()), name);
   if (result.image.type() != PixelType::u16 || result.image.channels() != 1) {
-    throw ParseError(name, 0, 0, "compressed depth is " + result.image.text() +
-                                     ", expected one channel of u16");
+    throw ParseError(
+        name, 0, 0, "compressed depth is " + result.image.text() + ", expected one channel of u16");
   }
   if (contains(message.format, "32FC1")) result.image = depthOfInverse(result.image, head);
   setKind(result, ImageKind::depth, true);

@@ -2,10 +2,9 @@
 #ifndef GSLAM_DATASETS_ROS_SRC_MESSAGES_IMAGE_H
 #define GSLAM_DATASETS_ROS_SRC_MESSAGES_IMAGE_H
 
-#include <gslam/datasets_ros/export.h>
-
 #include <gslam/core/frame.h>
 #include <gslam/core/image.h>
+#include <gslam/datasets_ros/export.h>
 
 #include <string>
 
@@ -29,13 +28,14 @@ struct DecodedImage {
 ///   their encoding, such as the name of the topic. (16UC1 and 32FC1 always are.)
 /// @param name      of the message for errors
 /// @throws ParseError for another encoding, and when the size is not that of the data
-GSLAM_DATASETS_ROS_EXPORT DecodedImage decodeRaw(const ImageMessage& message, bool is_depth, const std::string& name);
+GSLAM_DATASETS_ROS_EXPORT DecodedImage decodeRaw(const ImageMessage& message, bool is_depth,
+                                                 const std::string& name);
 
 /// The same of sensor_msgs/CompressedImage: JPEG, PNG and what else OpenCV reads; compressedDepth
 /// of 16 bits, and of floats, which are stored as inverse depth. (RVL is not read.)
 /// @throws ParseError, FileError when they are not what they say
-GSLAM_DATASETS_ROS_EXPORT DecodedImage decodeCompressed(const CompressedImageMessage& message, bool is_depth,
-                              const std::string& name);
+GSLAM_DATASETS_ROS_EXPORT DecodedImage decodeCompressed(const CompressedImageMessage& message,
+                                                        bool is_depth, const std::string& name);
 
 }  // namespace ros
 }  // namespace v1

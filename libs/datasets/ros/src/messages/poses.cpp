@@ -166,8 +166,7 @@ class Collector {
     Mat<double, 6, 6> covariance;
     std::copy(values.begin(), values.end(), covariance.data());
     try {
-      added.uncertain =
-          PoseWithCovariance<SE3d>::fromCovarianceInWorldAxes(added.pose, covariance);
+      added.uncertain = PoseWithCovariance<SE3d>::fromCovarianceInWorldAxes(added.pose, covariance);
       added.has_covariance = true;
     } catch (const ArgumentError& error) {
       remarks_.skip("covariances of " + name_ + " that are none",

@@ -73,7 +73,8 @@ class Db3Storage : public Storage {
     sqlite3_db_config(raw, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
     sqlite3_exec(raw, "PRAGMA cell_size_check = ON", nullptr, nullptr, nullptr);
     constexpr std::uint64_t kMost = 1U << 30;
-    sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, static_cast<int>(std::min(std::max<std::uint64_t>(size, 1U << 16), kMost)));
+    sqlite3_limit(raw, SQLITE_LIMIT_LENGTH,
+                  static_cast<int>(std::min(std::max<std::uint64_t>(size, 1U << 16), kMost)));
   }
 
   using Statement = std::unique_ptr<sqlite3_stmt, EndStatement>;

@@ -79,8 +79,9 @@ RecordingFolder readFolder(const std::string& folder) {
   if (!isFile(metadata)) {
     result.files = recordingsIn(folder);
     if (result.files.empty()) {
-      throw FileError(folder, "is no recording, expected metadata.yaml, or files that end in .db3 "
-                              "or .mcap");
+      throw FileError(folder,
+                      "is no recording, expected metadata.yaml, or files that end in .db3 "
+                      "or .mcap");
     }
     result.remarks.push_back(metadata + " does not exist: all recordings in the folder were taken");
     return result;

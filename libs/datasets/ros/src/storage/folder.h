@@ -10,7 +10,7 @@ inline namespace v1 {
 namespace ros {
 
 struct RecordingFolder {
-  std::vector<std::string> files;  ///< with their folder
+  std::vector<std::string> files;    ///< with their folder
   bool are_messages_packed = false;  ///< each message by zstd
   bool has_count = false;
   std::size_t message_count = 0;  ///< as metadata.yaml has it

@@ -12,10 +12,9 @@ namespace ros {
 
 std::uint32_t TopicList::add(const std::string& name, const std::string& type,
                              const std::string& encoding) {
-  const auto found =
-      std::find_if(topics.begin(), topics.end(), [&](const RecordedTopic& topic) {
-        return topic.name == name && topic.type == type && topic.encoding == encoding;
-      });
+  const auto found = std::find_if(topics.begin(), topics.end(), [&](const RecordedTopic& topic) {
+    return topic.name == name && topic.type == type && topic.encoding == encoding;
+  });
   const std::size_t place = std::size_t(found - topics.begin());
   if (found == topics.end()) {
     RecordedTopic topic;
@@ -42,7 +41,8 @@ std::unique_ptr<Storage> openStorage(const std::string& path) {
     case RecordingKind::db3:
       return openDb3(path);
     case RecordingKind::packed:
-      throw FileError(path, "is compressed as a whole; `zstd -d` makes a file of it that can be read");
+      throw FileError(path,
+                      "is compressed as a whole; `zstd -d` makes a file of it that can be read");
     case RecordingKind::none:
       break;
   }

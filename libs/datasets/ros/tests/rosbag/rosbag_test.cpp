@@ -1,7 +1,7 @@
 // Bags against rosbag_storage: what it writes is read, and what it reads is read the same.
 #include <gslam/core/frame.h>
-#include <gslam/datasets_ros/ros_dataset.h>
 #include <gslam/datasets_ros/recording.h>
+#include <gslam/datasets_ros/ros_dataset.h>
 
 #include <algorithm>
 #include <random>
@@ -114,8 +114,8 @@ TEST(rosbag, messages_that_ros_itself_serialized) {
   EXPECT_EQ(info.sensors.cameras[0].name, "camera");
   EXPECT_EQ(info.sensors.cameras[0].kind, gslam::ImageKind::bgr);
   EXPECT_EQ(info.sensors.cameras[0].camera,
-            gslam::Camera::fromParameters(
-                "radtan", 3, 2, {100, 101, 1, 2, 0.25, -0.125, 0.0625, 0.03125, 0.5}));
+            gslam::Camera::fromParameters("radtan", 3, 2,
+                                          {100, 101, 1, 2, 0.25, -0.125, 0.0625, 0.03125, 0.5}));
   ASSERT_EQ(info.ground_truth.size(), 1U);
   EXPECT_EQ(info.ground_truth[0].pose.translation()[0], 5);
   EXPECT_EQ(info.ground_truth[0].pose.rotation().z(), 1);
@@ -201,8 +201,10 @@ std::vector<std::uint8_t> smallBag(const std::string& compression) {
 TEST(hostile_rosbag, every_prefix_is_an_error_or_a_shorter_recording) {
   for (const std::string compression : {"none", "bz2", "lz4"}) {
     const auto bytes = smallBag(compression);
-    // Within the padding of the header all prefixes are alike.
-    for (std::size_t size = 0; size < bytes.size(); size += size > 100 && size < 4000 ? 50 : 1) {
+    // Within the padding of the header all prefixes are alike; every one of packed data is not
+    // tried.
+    const std::size_t step = compression == "none" ? 1 : 7;
+    for (std::size_t size = 0; size<bytes.size(); size += size> 100 && size < 4000 ? 100 : step) {
       readAll(std::vector<std::uint8_t>(bytes.begin(), bytes.begin() + std::ptrdiff_t(size)), 5);
     }
   }
@@ -212,7 +214,7 @@ TEST(hostile_rosbag, changed_bytes_do_no_harm) {
   std::mt19937 random(3);
   for (const std::string compression : {"none", "bz2", "lz4"}) {
     const auto bytes = smallBag(compression);
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < 1000; ++i) {
       auto changed = bytes;
       // Most of the first 4 kB is padding.
       const std::size_t at = i % 10 == 0 ? random() % 100 : 4000 + random() % (bytes.size() - 4000);

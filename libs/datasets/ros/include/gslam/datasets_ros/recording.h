@@ -41,8 +41,8 @@ struct MessageRef {
 /// last. Files are read, never written. Threads may share one.
 class GSLAM_DATASETS_ROS_EXPORT Recording {
  public:
-  /// Opens `.bag` (ROS 1; uncompressed, bz2, lz4), `.mcap` (uncompressed, lz4, zstd), `.db3` (ROS 2,
-  /// sqlite), or a folder of these with `metadata.yaml`. A file that was not closed is looked
+  /// Opens `.bag` (ROS 1; uncompressed, bz2, lz4), `.mcap` (uncompressed, lz4, zstd), `.db3` (ROS
+  /// 2, sqlite), or a folder of these with `metadata.yaml`. A file that was not closed is looked
   /// through from its beginning, and what is whole in it is there.
   /// @throws FileError that names the file, and for damaged ones the byte
   static std::shared_ptr<const Recording> open(const std::string& path);
