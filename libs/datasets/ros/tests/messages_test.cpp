@@ -2,6 +2,7 @@
 #include <gslam/geometry/camera.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <opencv2/core.hpp>
@@ -269,10 +270,10 @@ TEST(images, compressed_ones_are_as_opencv_decodes_them) {
 }
 
 RawBytes withHead(float a, float b, const RawBytes& png) {
-  RawBytes bytes(12);
+  RawBytes bytes(12 + png.size());
   std::memcpy(bytes.data() + 4, &a, 4);
   std::memcpy(bytes.data() + 8, &b, 4);
-  bytes.insert(bytes.end(), png.begin(), png.end());
+  std::copy(png.begin(), png.end(), bytes.begin() + 12);
   return bytes;
 }
 
