@@ -5,6 +5,8 @@
 #include <gslam/svar_formats/xml.h>
 #include <gslam/svar_formats/yaml.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <cstddef>
 #include <fstream>
 #include <iterator>

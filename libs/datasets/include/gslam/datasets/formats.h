@@ -28,13 +28,25 @@ GSLAM_DATASETS_EXPORT std::string datasetFormatOf(const std::string& path);
 /// All formats below.
 GSLAM_DATASETS_EXPORT std::vector<DatasetFactory> datasetFormats();
 
-GSLAM_DATASETS_EXPORT DatasetFactory kittiFactory();        ///< `kitti`: KITTI odometry
-GSLAM_DATASETS_EXPORT DatasetFactory kittiRawFactory();     ///< `kittiraw`: KITTI raw
-GSLAM_DATASETS_EXPORT DatasetFactory tumFactory();          ///< `tum`: TUM RGB-D
-GSLAM_DATASETS_EXPORT DatasetFactory iclFactory();          ///< `icl`: ICL-NUIM
-GSLAM_DATASETS_EXPORT DatasetFactory tumMonoFactory();      ///< `tummono`: TUM monoVO
-GSLAM_DATASETS_EXPORT DatasetFactory eurocFactory();        ///< `euroc`: EuRoC MAV, ASL layout
-GSLAM_DATASETS_EXPORT DatasetFactory tumViFactory();        ///< `tumvi`: TUM VI
+GSLAM_DATASETS_EXPORT DatasetFactory kittiFactory();     ///< `kitti`: KITTI odometry
+GSLAM_DATASETS_EXPORT DatasetFactory kittiRawFactory();  ///< `kittiraw`: KITTI raw
+GSLAM_DATASETS_EXPORT DatasetFactory tumFactory();       ///< `tum`: TUM RGB-D
+GSLAM_DATASETS_EXPORT DatasetFactory iclFactory();       ///< `icl`: ICL-NUIM
+/// `tummono`: TUM monoVO. images/ or images.zip, times.txt with exposures, camera.txt, poses at the
+/// begin and the end. `photometric`: "none"; "u8" or "f32", whose pixels are the irradiance times
+/// exposure, by pcalib.txt and vignette.png, as 8-bit numbers or floats (0 to 255 without
+/// vignette). `camera`, `calibration`: in place of camera.txt, see cvMonoFactory().
+GSLAM_DATASETS_EXPORT DatasetFactory tumMonoFactory();
+/// `euroc`: EuRoC MAV and others in the ASL layout: the folder around mav0, or mav0. `cameras`:
+/// numbers of those to read, "0" or "0,1"; "": all. `list`: the file of each camera that names its
+/// images, "data.csv". `tolerance`: most seconds between the images of a frame, 0. `calibration`: a
+/// file that readCalibration() reads, in place of what sensor.yaml says. `truth`: the folder of the
+/// ground truth; "": the first of state_groundtruth_estimate0, mocap0, vicon0; leica0 has positions
+/// only.
+GSLAM_DATASETS_EXPORT DatasetFactory eurocFactory();
+/// `tumvi`: TUM VI, the archives of EuRoC and DSO layout, 512 or 1024, 8 or 16 bits: mav0/ and, for
+/// exposures and calibration, dso/. The parameters are those of eurocFactory().
+GSLAM_DATASETS_EXPORT DatasetFactory tumViFactory();
 GSLAM_DATASETS_EXPORT DatasetFactory droneMapFactory();     ///< `dronemap`: NPU DroneMap
 GSLAM_DATASETS_EXPORT DatasetFactory photosFactory();       ///< `photos`: photos with EXIF GPS
 GSLAM_DATASETS_EXPORT DatasetFactory sevenScenesFactory();  ///< `7scenes`: Microsoft 7-Scenes
