@@ -118,7 +118,8 @@ void printGroundTruth(const gslam::Trajectory& truth) {
 }
 
 void printFrames(const DatasetInfo& info) {
-  std::cout << "frames       " << (info.frame_count > 0 ? std::to_string(info.frame_count) : "unknown")
+  std::cout << "frames       "
+            << (info.frame_count > 0 ? std::to_string(info.frame_count) : "unknown")
             << (info.is_live ? ", live" : "");
   if (hasStamps(info)) {
     std::cout << ", " << secondsOf(info) << " s, from " << gslam::secondsText(info.first_stamp)

@@ -209,9 +209,9 @@ class Check {
   void compareCounts(std::size_t total) {
     const std::size_t read = result_.frames + unreadable_;
     if (total != 0 && read != total) {
-      errors_.add("there are " + std::to_string(read) + " frames, but it says " +
-                      std::to_string(total),
-                  "");
+      errors_.add(
+          "there are " + std::to_string(read) + " frames, but it says " + std::to_string(total),
+          "");
     }
     if (result_.frames == 0) errors_.add("no frame can be read", "");
     const DatasetInfo& info = dataset_.info();
@@ -255,8 +255,7 @@ class Check {
     }
     for (std::size_t i = 1; i < truth.size(); ++i) {
       const double seconds = double(truth[i].stamp - truth[i - 1].stamp) * 1e-9;
-      const double metres =
-          (truth[i].pose.translation() - truth[i - 1].pose.translation()).norm();
+      const double metres = (truth[i].pose.translation() - truth[i - 1].pose.translation()).norm();
       if (metres > kMostSpeed * seconds && metres > 0.1) {
         warnings_.add("it jumps faster than " + std::to_string(int(kMostSpeed)) + " m/s",
                       "ground truth at " + secondsText(truth[i].stamp) + " s");
