@@ -134,6 +134,11 @@ TEST(calibrationFile, KalibrsImu) {
   EXPECT_EQ(found.rig.imu.gyro_noise, 0.00016);
   EXPECT_EQ(found.rig.imu.gyro_bias_walk, 2.2e-05);
   EXPECT_EQ(found.rig.imu.rate, 200);
+  EXPECT_TRUE(found.remarks.empty());
+  const std::string one = "Tw: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n";
+  EXPECT_TRUE(parse(imu + one).remarks.empty());
+  EXPECT_TRUE(says(parse(imu + with(one, "1", "1.01")).remarks, "scale and misalignment"));
+  EXPECT_TRUE(says(parse(imu + "time_offset: 0.01\n").remarks, "time_offset"));
 }
 
 TEST(calibrationFile, KalibrsChainThatContradictsItselfIsSaid) {
@@ -406,6 +411,7 @@ TEST(calibrationFile, RefusesWrongOptions) {
   options.format = "basalt";
   EXPECT_TRUE(has(errorOf(kKalibr, options), "value0 is missing"));
   EXPECT_THROW(gslam::readCalibration("/nowhere/calibration.yaml"), gslam::FileError);
+  EXPECT_THROW(gslam::readCalibration("/"), gslam::FileError);
 }
 
 }  // namespace
