@@ -6,12 +6,12 @@
 #include <chrono>
 #include <cstdio>
 
-#include "read_case.h"
+#include "format_case.h"
 #include "test_data.h"
 
 namespace {
 
-using namespace read_case;  // NOLINT(google-build-using-namespace)
+using namespace format_case;  // NOLINT(google-build-using-namespace)
 using gslam::kittiFactory;
 
 std::string projection(double fx, double cx, double cy, double tx, double ty, double tz) {
