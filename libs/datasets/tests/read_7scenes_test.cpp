@@ -59,7 +59,7 @@ TEST(read7Scenes, RealSequence) {
 TEST(read7Scenes, DepthAndPosesFitTogether) {
   NEEDS_TEST_DATA();
   const auto dataset = open(sevenScenesFactory(), realFolder());
-  for (const std::size_t i : {0, 120, 260}) {
+  for (const std::size_t i : {0U, 120U, 260U}) {
     dataset->seek(i);
     const auto a = dataset->next();
     dataset->seek(i + 30);

@@ -119,7 +119,7 @@ TEST(readTum, DepthAndPosesFitTogether) {
   NEEDS_TEST_DATA();
   const auto dataset = open(tumFactory(), realFolder());
   const auto frames = allFrames(*dataset);
-  for (const std::size_t i : {0, 20, 40}) {
+  for (const std::size_t i : {0U, 20U, 40U}) {
     const Frame &a = *frames[i], &b = *frames[i + 8];
     const SE3d T_b_a = truthBetween(*dataset, a, b);
     ASSERT_GT(T_b_a.rotation().angle(), 0.05) << "else it tells nothing";

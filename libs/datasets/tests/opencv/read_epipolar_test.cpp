@@ -121,7 +121,7 @@ void record(const std::string& name, const Errors& errors) {
 TEST(readEpipolar, Strecha) {
   NEEDS_TEST_DATA();
   const auto dataset = open(gslam::strechaFactory(), "sfm/strecha_fountain_P11");
-  for (const std::size_t i : {2}) {
+  for (const std::size_t i : {2U}) {
     const Errors errors =
         errorsOf(*dataset, *frameAt(*dataset, i), 0, *frameAt(*dataset, i + 1), 0);
     record("strecha" + std::to_string(i), errors);
@@ -135,7 +135,7 @@ TEST(readEpipolar, Strecha) {
 TEST(readEpipolar, KittiFromFrameToFrame) {
   NEEDS_TEST_DATA();
   const auto dataset = open(gslam::kittiFactory(), "sequences/kitti_06");
-  for (const std::size_t i : {40}) {
+  for (const std::size_t i : {40U}) {
     const Errors errors =
         errorsOf(*dataset, *frameAt(*dataset, i), 0, *frameAt(*dataset, i + 1), 0);
     record("kitti" + std::to_string(i), errors);
