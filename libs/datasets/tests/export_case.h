@@ -103,13 +103,13 @@ struct Case {
     const std::string word = name.rfind("radtan", 0) == 0 ? "radtan" : name;
     return gslam::Camera::fromParameters(word, kWidth, kHeight, p);
   }
-  SE3d T_body_camera(std::size_t i) const {
+  SE3d poseOfCamera(std::size_t i) const {
     const SE3d first(SO3d::exp({{0.1, -0.2, 1.5}}), {{-0.02, -0.06, 0.01}});
     const SE3d right(SO3d::exp(is_rectified ? gslam::Vec3d{} : gslam::Vec3d{{0.01, 0.02, 0}}),
                      {{0.11 * double(i), 0, 0}});
     return i == 0 ? first : first * right;
   }
-  static SE3d T_body_imu() { return SE3d(SO3d::exp({{0, 0.3, 0}}), {{0.01, 0.02, 0.03}}); }
+  static SE3d poseOfImu() { return SE3d(SO3d::exp({{0, 0.3, 0}}), {{0.01, 0.02, 0.03}}); }
 
   gslam::DatasetInfo info() const {
     gslam::DatasetInfo info;
@@ -119,7 +119,7 @@ struct Case {
       camera.name = "cam" + std::to_string(i);
       camera.kind = kind;
       camera.camera = model(models[i]);
-      camera.T_body_camera = T_body_camera(i);
+      camera.T_body_camera = poseOfCamera(i);
       camera.rate = 20;
       info.sensors.cameras.push_back(camera);
     }
@@ -128,12 +128,12 @@ struct Case {
       depth.name = "depth";
       depth.kind = ImageKind::depth;
       depth.camera = model(models[0]);
-      depth.T_body_camera = T_body_camera(0);
+      depth.T_body_camera = poseOfCamera(0);
       depth.depth_scale = depth_scale;
       info.sensors.cameras.push_back(depth);
     }
     info.sensors.has_imu = has_imu;
-    info.sensors.imu.T_body_imu = T_body_imu();
+    info.sensors.imu.T_body_imu = poseOfImu();
     info.sensors.imu.rate = 200;
     info.sensors.imu.gyro_noise = 1.7e-4;
     info.sensors.imu.accel_noise = 2e-3;
@@ -282,7 +282,7 @@ inline SE3d yamlPose(const std::string& text) {
 
 /// The pixels of a file as they are in it.
 inline cv::Mat readImage(const std::string& path) {
-  const cv::Mat mat = cv::imread(path, cv::IMREAD_UNCHANGED);
+  cv::Mat mat = cv::imread(path, cv::IMREAD_UNCHANGED);
   EXPECT_FALSE(mat.empty()) << path;
   return mat;
 }

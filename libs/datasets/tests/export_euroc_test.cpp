@@ -54,10 +54,10 @@ TEST(ExportEuroc, CalibrationReadsBack) {
     EXPECT_EQ(yamlValue(text, "distortion_model"), " radial-tangential");
     EXPECT_EQ(numbers(yamlValue(text, "distortion_coefficients")),
               (std::vector<double>{-0.28, 0.07, 0.0002, 1.76e-05}));
-    EXPECT_TRUE(yamlPose(text).isApprox(c.T_body_camera(i), 1e-14));
+    EXPECT_TRUE(yamlPose(text).isApprox(c.poseOfCamera(i), 1e-14));
   }
   const std::string imu = readText(folder / "euroc/mav0/imu0/sensor.yaml");
-  EXPECT_TRUE(yamlPose(imu).isApprox(Case::T_body_imu(), 1e-14));
+  EXPECT_TRUE(yamlPose(imu).isApprox(Case::poseOfImu(), 1e-14));
   EXPECT_EQ(numbers(yamlValue(imu, "rate_hz")), std::vector<double>{200});
   EXPECT_EQ(numbers(yamlValue(imu, "gyroscope_noise_density")), std::vector<double>{1.7e-4});
   EXPECT_EQ(numbers(yamlValue(imu, "gyroscope_random_walk")), std::vector<double>{1.9e-5});
@@ -151,7 +151,7 @@ TEST(ExportEuroc, VelocitiesOfFewPoses) {
     Case c;
     c.has_truth = false;
     gslam::DatasetInfo info = c.info();
-    for (int i = 0; i < poses; ++i) {
+    for (std::int64_t i = 0; i < poses; ++i) {
       info.ground_truth.add(kFirstStamp + i * 500000000, SE3d(SO3d(), {{double(i), 0, 0}}));
     }
     gslam::MemoryDataset dataset(info, c.makeFrames(info));
@@ -297,23 +297,23 @@ TEST(ExportTumvi, CalibrationIsRelativeToTheImu) {
   const TempFolder folder;
   const Case c = stereoInertial("kannala_brandt");
   exportDataset(*c.dataset(), folder / "tumvi", "tumvi");
-  const SE3d T_imu_body = Case::T_body_imu().inverse();
+  const SE3d T_imu_body = Case::poseOfImu().inverse();
   const auto lines = readLines(folder / "tumvi/dso/camchain.yaml");
   std::size_t camera = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (lines[i] == "cam1:") camera = 1;
     if (lines[i] == "  T_cam_imu:") {
-      const SE3d expected = (T_imu_body * c.T_body_camera(camera)).inverse();
+      const SE3d expected = (T_imu_body * c.poseOfCamera(camera)).inverse();
       EXPECT_TRUE(kalibrPose(lines, i).isApprox(expected, 1e-14));
     }
     if (lines[i] == "  T_cn_cnm1:") {
-      const SE3d expected = c.T_body_camera(1).inverse() * c.T_body_camera(0);
+      const SE3d expected = c.poseOfCamera(1).inverse() * c.poseOfCamera(0);
       EXPECT_TRUE(kalibrPose(lines, i).isApprox(expected, 1e-14));
     }
   }
   EXPECT_EQ(camera, 1U);
   const std::string yaml = readText(folder / "tumvi/mav0/cam0/sensor.yaml");
-  EXPECT_TRUE(yamlPose(yaml).isApprox(T_imu_body * c.T_body_camera(0), 1e-14));
+  EXPECT_TRUE(yamlPose(yaml).isApprox(T_imu_body * c.poseOfCamera(0), 1e-14));
   EXPECT_TRUE(yamlPose(readText(folder / "tumvi/mav0/imu0/sensor.yaml")).isApprox(SE3d(), 1e-14));
   const auto dso = readLines(folder / "tumvi/dso/cam0/camera.txt");
   ASSERT_EQ(dso.size(), 4U);
@@ -333,7 +333,7 @@ TEST(ExportTumvi, PosesAreThoseOfTheImu) {
   ASSERT_EQ(mocap.size(), truth.size());
   for (std::size_t i = 0; i < mocap.size(); ++i) {
     ASSERT_EQ(mocap[i].size(), 8U);
-    const SE3d expected = truth[i].pose * Case::T_body_imu();
+    const SE3d expected = truth[i].pose * Case::poseOfImu();
     EXPECT_TRUE(poseOf(mocap[i], 1, true).isApprox(expected, 1e-14));
   }
   EXPECT_EQ(readTable(folder / "tumvi/dso/gt_imu.csv", ","), mocap);

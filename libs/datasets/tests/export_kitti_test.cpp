@@ -46,7 +46,7 @@ TEST(ExportKitti, PosesAreRelativeToTheFirstCamera) {
   exportDataset(*dataset, folder / "kitti", "kitti");
   const auto rows = readTable(folder / "kitti/poses/00.txt");
   ASSERT_EQ(rows.size(), 5U);
-  const SE3d T_body_camera = stereo().T_body_camera(0);
+  const SE3d T_body_camera = stereo().poseOfCamera(0);
   const SE3d first = poseAt(kFirstStamp) * T_body_camera;
   for (std::size_t i = 0; i < 5; ++i) {
     const std::vector<double> v = numbersOf(rows[i], 0);
@@ -76,8 +76,8 @@ TEST(ExportKitti, ProjectionsAreThoseOfTheCameras) {
     }
     const CameraSensor& camera = dataset->info().sensors.cameras[i % 2];
     gslam::Vec2d pixel;
-    ASSERT_TRUE(camera.camera.project(camera.T_body_camera.inverse() * (c.T_body_camera(0) * point),
-                                      pixel));
+    ASSERT_TRUE(
+        camera.camera.project(camera.T_body_camera.inverse() * (c.poseOfCamera(0) * point), pixel));
     EXPECT_NEAR(h[0] / h[2], pixel[0], 1e-9);
     EXPECT_NEAR(h[1] / h[2], pixel[1], 1e-9);
   }
@@ -174,7 +174,7 @@ TEST(ExportTummono, ImagesTimesAndPosesReadBack) {
     EXPECT_EQ(std::stod(times[i].at(2)), 1.71);
     EXPECT_EQ(stampOf(truth[i].at(0)), frame->stamp);
     EXPECT_TRUE(
-        poseOf(truth[i], 1, false).isApprox(poseAt(frame->stamp) * c.T_body_camera(0), 1e-14));
+        poseOf(truth[i], 1, false).isApprox(poseAt(frame->stamp) * c.poseOfCamera(0), 1e-14));
     const cv::Mat file = readImage(folder / ("mono/images/" + times[i][0] + ".png"));
     EXPECT_TRUE(samePixels<std::uint8_t>(file, frame->images[0].image, {0}));
   }

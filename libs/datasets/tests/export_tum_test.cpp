@@ -55,7 +55,7 @@ TEST(ExportTum, PosesAreThoseOfTheCamera) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     ASSERT_EQ(rows[i].size(), 8U);
     EXPECT_EQ(stampOf(rows[i][0]), truth[i].stamp);
-    const SE3d expected = truth[i].pose * rgbd().T_body_camera(0);
+    const SE3d expected = truth[i].pose * rgbd().poseOfCamera(0);
     EXPECT_TRUE(poseOf(rows[i], 1, false).isApprox(expected, 1e-14));
   }
 }
@@ -217,7 +217,7 @@ TEST(ExportIcl, NegativeFocalLengthAndPosesGoTogether) {
     gslam::Vec3d bearing;
     ASSERT_TRUE(frame->images[0].camera.unproject({{u, v}}, bearing));
     const gslam::Vec3d expected =
-        poseAt(frame->stamp) * (c.T_body_camera(0) * ((depth / bearing[2]) * bearing));
+        poseAt(frame->stamp) * (c.poseOfCamera(0) * ((depth / bearing[2]) * bearing));
     EXPECT_NEAR(found[0], expected[0], 1e-12);
     EXPECT_NEAR(found[1], -expected[1], 1e-12);
     EXPECT_NEAR(found[2], expected[2], 1e-12);

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <mutex>
 #include <opencv2/videoio.hpp>
+#include <opencv2/videoio/registry.hpp>
 #include <utility>
 
 #include "../reading/decode.h"
@@ -140,8 +141,8 @@ std::unique_ptr<Dataset> openFolder(const std::string& path, const Options& opti
 // A video, read frame by frame; a jump decodes what is between, or from the key frame before.
 class Video {
  public:
-  Video(std::string path, int every) : path_(std::move(path)), every_(every), capture_(path_) {
-    if (capture_.isOpened()) return;
+  Video(std::string path, int every) : path_(std::move(path)), every_(every) {
+    if (capture_.open(path_, backend())) return;
     throw FileError(path_, "cannot be opened as a video, nor as anything else that OpenCV reads");
   }
 
@@ -163,9 +164,15 @@ class Video {
  private:
   static constexpr std::size_t kMostSkipped = 100;
 
+  // Others complain on stderr of files that are not theirs.
+  static int backend() {
+    const bool has_ffmpeg = cv::videoio_registry::hasBackend(cv::CAP_FFMPEG);
+    return has_ffmpeg ? cv::CAP_FFMPEG : cv::CAP_ANY;
+  }
+
   void jumpTo(std::size_t frame) {
     if (!capture_.set(cv::CAP_PROP_POS_FRAMES, double(frame))) {
-      capture_.open(path_);  // from its beginning
+      capture_.open(path_, backend());  // from its beginning
       next_ = 0;
       return;
     }

@@ -1,4 +1,7 @@
+#include <gslam/core/parameters.h>
 #include <gslam/datasets/formats.h>
+
+#include <algorithm>
 
 namespace gslam {
 inline namespace v1 {
@@ -8,6 +11,30 @@ std::vector<DatasetFactory> datasetFormats() {
           tumMonoFactory(), eurocFactory(),       tumViFactory(),   droneMapFactory(),
           photosFactory(),  sevenScenesFactory(), strechaFactory(), folderFactory(),
           cvMonoFactory()};
+}
+
+namespace {
+
+const DatasetFactory* findFormat(const std::vector<DatasetFactory>& formats,
+                                 const std::string& name) {
+  const auto found = std::find_if(formats.begin(), formats.end(),
+                                  [&](const DatasetFactory& one) { return one.name == name; });
+  return found == formats.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::unique_ptr<Dataset> openDataset(const std::string& path, const Svar& parameters) {
+  const std::vector<DatasetFactory> formats = datasetFormats();
+  const std::size_t colon = path.find(':');
+  const DatasetFactory* format =
+      colon == std::string::npos ? nullptr : findFormat(formats, path.substr(0, colon));
+  const std::string place = format == nullptr ? path : path.substr(colon + 1);
+  if (format == nullptr) format = findFormat(formats, datasetFormatOf(path));
+  if (format == nullptr) {
+    throw FileError(path, "is no dataset of a known format, or does not exist");
+  }
+  return format->open(place, completeParameters(format->parameters, parameters));
 }
 
 }  // namespace v1

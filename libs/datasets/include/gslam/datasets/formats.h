@@ -4,6 +4,7 @@
 #include <gslam/core/registry.h>
 #include <gslam/datasets/export.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,8 @@
 ///
 /// All have the parameters `threads` (that decode images ahead; 0: none) and `ahead` (most frames
 /// that are decoded and not taken). Their own stand in DatasetFactory::parameters, and are said
-/// below.
+/// below. `camera` is a camera in one line, "pinhole 640x480 525 525 319.5 239.5"; `calibration` a
+/// file that readCalibration() reads, of which the first camera is taken.
 
 namespace gslam {
 inline namespace v1 {
@@ -27,6 +29,14 @@ GSLAM_DATASETS_EXPORT std::string datasetFormatOf(const std::string& path);
 
 /// All formats below.
 GSLAM_DATASETS_EXPORT std::vector<DatasetFactory> datasetFormats();
+
+/// Opens a dataset of one of these formats, without any plugin.
+/// @param path        a folder or file; "kitti:PATH" where the format is not to be found out
+/// @param parameters  an object with those that are not as DatasetFactory::parameters has them
+/// @throws FileError when no format is recognized, and what opening it throws; SvarError for a
+///   parameter that the format does not have
+GSLAM_DATASETS_EXPORT std::unique_ptr<Dataset> openDataset(const std::string& path,
+                                                           const Svar& parameters = Svar());
 
 /// `kitti`: KITTI odometry. The path is the folder of a sequence, one around several, or an
 /// archive.
@@ -82,24 +92,34 @@ GSLAM_DATASETS_EXPORT DatasetFactory iclFactory();
 GSLAM_DATASETS_EXPORT DatasetFactory tumMonoFactory();   ///< `tummono`: TUM monoVO
 GSLAM_DATASETS_EXPORT DatasetFactory eurocFactory();     ///< `euroc`: EuRoC MAV, ASL layout
 GSLAM_DATASETS_EXPORT DatasetFactory tumViFactory();     ///< `tumvi`: TUM VI
-GSLAM_DATASETS_EXPORT DatasetFactory droneMapFactory();  ///< `dronemap`: NPU DroneMap
-GSLAM_DATASETS_EXPORT DatasetFactory photosFactory();    ///< `photos`: photos with EXIF GPS
+/// `dronemap`: NPU DroneMap. `config.cfg` with `trajectory.txt` and `rgb/` (keyframes with poses),
+/// or with `frames.txt` and `gps.txt` (frames with positions); NAME.npudronemap stands for its
+/// folder, without positions where NAME has "mono". Parameters: `camera`, `calibration`.
+GSLAM_DATASETS_EXPORT DatasetFactory droneMapFactory();
+/// `photos`: a folder of photos with EXIF positions: GNSS samples, and priors where a DJI's gimbal
+/// angles are known. Parameters: `camera`, `calibration`; else the camera is guessed from EXIF.
+GSLAM_DATASETS_EXPORT DatasetFactory photosFactory();
+///< `photos`: photos with EXIF GPS
 /// `7scenes`: Microsoft 7-Scenes. The path is the folder of a sequence, that of a scene, or an
 /// archive. Body: the depth camera. Colour has its calibration and pose, too, which is wrong by a
 /// few pixels: nobody calibrated it. Depth of 65535 becomes 0. Frames are 1/30 s apart. All poses
 /// are read when it is opened; those that are not finite, or none, are skipped.
 ///
 /// * `sequence`: which one, such as "seq-01" or 1; null: the only one
-/// * `depth`, `depth_factor`, `camera`, `calibration`: as of `tum`; else camera-intrinsics.txt in
-/// or
-///   around the sequence, or 585 585 320 240
+/// * `depth`, `depth_factor`, `camera`, `calibration`: as of `tum`; else
+///   camera-intrinsics.txt in or around the sequence, or 585 585 320 240
 GSLAM_DATASETS_EXPORT DatasetFactory sevenScenesFactory();
 /// `strecha`: Strecha's multi-view benchmark: photos, in the folder or in `images`, and a .camera
 /// file of each, beside it or in gt_dense_cameras. Body: the camera. It is that of the first image,
 /// scaled to the size of the images, or images/K.txt. Images are 1 s apart, by name.
 GSLAM_DATASETS_EXPORT DatasetFactory strechaFactory();
-GSLAM_DATASETS_EXPORT DatasetFactory folderFactory();  ///< `folder`: users' own cameras
-GSLAM_DATASETS_EXPORT DatasetFactory cvMonoFactory();  ///< `cvmono`: videos, images, devices
+/// `folder`: users' own cameras, as a file `dataset.yaml` describes them; the README explains it.
+GSLAM_DATASETS_EXPORT DatasetFactory folderFactory();
+/// `cvmono`: what OpenCV opens. Folders, archives and patterns (`cvmono:/data/f*.png`) of images in
+/// natural order, videos, devices (`cvmono:0`) and addresses (`cvmono:rtsp://...`). Parameters:
+/// `rate` (images a second; 0: as the video says, else 30), `every` (takes each such frame),
+/// `camera`, `calibration`.
+GSLAM_DATASETS_EXPORT DatasetFactory cvMonoFactory();
 
 }  // namespace v1
 }  // namespace gslam

@@ -35,7 +35,11 @@ inline std::string withoutLinks(const std::string& path) {
     const std::string target = linkTarget(place);
     if (target.empty()) return place;
     const std::size_t name = place.find_last_of('/') + 1;  // 0 where there is no folder
-    place = target[0] == '/' ? target : place.substr(0, name) + target;
+    if (target[0] == '/') {
+      place = target;
+    } else {
+      place.replace(name, std::string::npos, target);
+    }
   }
   return path;
 }
