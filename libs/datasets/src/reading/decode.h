@@ -4,6 +4,7 @@
 
 #include <gslam/core/frame.h>
 #include <gslam/core/image.h>
+#include <gslam/datasets/export.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -21,14 +22,14 @@ namespace reading {
 /// @param bytes  all of the file
 /// @param name   what errors call it
 /// @throws FileError when it is empty, or no image, or ends early
-Image decodeImage(const std::vector<std::uint8_t>& bytes, const std::string& name);
+GSLAM_DATASETS_EXPORT Image decodeImage(const std::vector<std::uint8_t>& bytes, const std::string& name);
 
 /// The same of a file in a tree.
 Image readImage(const FileTree& tree, const std::string& file);
 
 /// What pixels with that many channels mean: grey, bgr or bgra.
 /// @throws FileError for another number
-ImageKind kindOf(const Image& image, const std::string& name);
+GSLAM_DATASETS_EXPORT ImageKind kindOf(const Image& image, const std::string& name);
 
 /// The images of one camera: what its first one is like, so are all.
 struct ImageShape {
@@ -37,10 +38,10 @@ struct ImageShape {
   PixelType type = PixelType::u8;
   int channels = 1;
 };
-ImageShape shapeOf(const Image& image);
+GSLAM_DATASETS_EXPORT ImageShape shapeOf(const Image& image);
 
 /// @throws FileError when an image has not that shape
-void checkShape(const Image& image, const ImageShape& shape, const std::string& name);
+GSLAM_DATASETS_EXPORT void checkShape(const Image& image, const ImageShape& shape, const std::string& name);
 
 }  // namespace reading
 }  // namespace v1

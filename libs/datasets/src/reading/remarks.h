@@ -2,6 +2,8 @@
 #ifndef GSLAM_DATASETS_SRC_READING_REMARKS_H
 #define GSLAM_DATASETS_SRC_READING_REMARKS_H
 
+#include <gslam/datasets/export.h>
+
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -16,7 +18,7 @@ namespace reading {
 ///
 /// becomes "3 images that do not exist were skipped: a, b, c"; of many the first and last are
 /// named.
-class Remarks {
+class GSLAM_DATASETS_EXPORT Remarks {  // for packages inside of this library's folder
  public:
   /// Adds a sentence, without a full stop at its end; one that is there already is not repeated.
   void say(const std::string& sentence);

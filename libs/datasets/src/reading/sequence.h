@@ -5,6 +5,7 @@
 
 #include <gslam/core/dataset.h>
 #include <gslam/core/sensor.h>
+#include <gslam/datasets/export.h>
 #include <gslam/svar/svar.h>
 
 #include <cstddef>
@@ -57,15 +58,15 @@ struct Prefetch {
 
 /// The parameters that all formats have, with their defaults: "threads", "ahead". Those of a format
 /// are added with set().
-Svar commonParameters();
+GSLAM_DATASETS_EXPORT Svar commonParameters();
 /// @throws ArgumentError when one is out of range
-Prefetch prefetchOf(const Svar& parameters);
+GSLAM_DATASETS_EXPORT Prefetch prefetchOf(const Svar& parameters);
 
 /// Delivers a sequence: frames go out in order, with the inertial and satellite samples after the
 /// frame before and up to the frame's stamp (the first frame has all up to its own). Gaps between
 /// frames, and samples that no frame has, become remarks.
 /// @throws Error when there is no frame
-std::unique_ptr<Dataset> deliver(Sequence sequence, const Prefetch& prefetch);
+GSLAM_DATASETS_EXPORT std::unique_ptr<Dataset> deliver(Sequence sequence, const Prefetch& prefetch);
 
 /// Image files for Sequence::load: a name for image [frame * cameras + camera], relative to `tree`;
 /// an empty one where the frame has none. Each camera's images must be of the shape that its first

@@ -1,0 +1,70 @@
+#include "frame_tree.h"
+
+#include <gslam/base/error.h>
+
+#include <cmath>
+#include <set>
+
+#include "messages/decode.h"
+
+namespace gslam {
+inline namespace v1 {
+namespace ros {
+namespace {
+
+std::string plain(const std::string& frame) {
+  return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame;
+}
+
+}  // namespace
+
+void FrameTree::add(const std::string& parent, const std::string& child,
+                    const SE3d& T_parent_child) {
+  neighbours_[plain(parent)].emplace_back(plain(child), T_parent_child);
+  neighbours_[plain(child)].emplace_back(plain(parent), T_parent_child.inverse());
+}
+
+void FrameTree::addTopics(const Recording& recording, const std::vector<std::size_t>& topics,
+                          reading::Remarks& remarks) {
+  std::set<std::pair<std::string, std::string>> added;
+  for (const MessageRef& ref : recording.messages(topics)) {
+    for (const TransformStamped& one : readMessage<TfMessage>(recording, ref).transforms) {
+      if (!added.emplace(one.header.frame_id, one.child_frame_id).second) continue;
+      const Triple& t = one.transform.position;
+      const Quadruple& q = one.transform.orientation;
+      try {
+        const SE3d pose(SO3d::fromQuaternion(q[0], q[1], q[2], q[3]), {t[0], t[1], t[2]});
+        if (!std::isfinite(t[0] + t[1] + t[2])) throw ArgumentError("translation", "is not finite");
+        add(one.header.frame_id, one.child_frame_id, pose);
+      } catch (const ArgumentError& error) {
+        remarks.skip("static transforms that are none",
+                     one.header.frame_id + " to " + one.child_frame_id + ": " + error.what());
+      }
+    }
+  }
+}
+
+bool FrameTree::find(const std::string& a, const std::string& b, SE3d& T_a_b) const {
+  const std::string wanted = plain(b);
+  std::vector<std::pair<std::string, SE3d>> queue = {{plain(a), SE3d()}};
+  std::set<std::string> seen = {plain(a)};
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    const std::pair<std::string, SE3d> here = queue[i];
+    if (here.first == wanted) {
+      T_a_b = here.second;
+      return true;
+    }
+    const auto found = neighbours_.find(here.first);
+    if (found == neighbours_.end()) continue;
+    for (const auto& next : found->second) {
+      if (seen.insert(next.first).second) {
+        queue.emplace_back(next.first, here.second * next.second);
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace ros
+}  // namespace v1
+}  // namespace gslam
