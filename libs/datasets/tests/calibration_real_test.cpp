@@ -73,7 +73,7 @@ TEST(realCalibration, DsosFileOfTumVi) {
   // What DSO itself takes these numbers for is another camera.
   const CameraSensor radtan =
       real("calibrations/equidistant/dso_camera_tumvi_cam0.txt").rig.cameras[0];
-  EXPECT_GT(medianDistance(radtan, kalibr, 1), 10);
+  EXPECT_GT(medianDistance(radtan, kalibr, 1), 5);
 }
 
 TEST(realCalibration, OpenVinsAndAslDescribeEurocAlike) {
