@@ -89,9 +89,9 @@ GSLAM_DATASETS_EXPORT DatasetFactory tumFactory();
 /// * `unit`: metres that 1 stands for in POV-Ray's files; 0: 1 for scene_00_0000, the living room,
 ///   0.01 for scene_000, the office
 GSLAM_DATASETS_EXPORT DatasetFactory iclFactory();
-GSLAM_DATASETS_EXPORT DatasetFactory tumMonoFactory();   ///< `tummono`: TUM monoVO
-GSLAM_DATASETS_EXPORT DatasetFactory eurocFactory();     ///< `euroc`: EuRoC MAV, ASL layout
-GSLAM_DATASETS_EXPORT DatasetFactory tumViFactory();     ///< `tumvi`: TUM VI
+GSLAM_DATASETS_EXPORT DatasetFactory tumMonoFactory();  ///< `tummono`: TUM monoVO
+GSLAM_DATASETS_EXPORT DatasetFactory eurocFactory();    ///< `euroc`: EuRoC MAV, ASL layout
+GSLAM_DATASETS_EXPORT DatasetFactory tumViFactory();    ///< `tumvi`: TUM VI
 /// `dronemap`: NPU DroneMap. `config.cfg` with `trajectory.txt` and `rgb/` (keyframes with poses),
 /// or with `frames.txt` and `gps.txt` (frames with positions); NAME.npudronemap stands for its
 /// folder, without positions where NAME has "mono". Parameters: `camera`, `calibration`.
