@@ -24,7 +24,7 @@ void expectNear(const Vec2d& a, double u, double v, double tolerance = 1e-9) {
   EXPECT_NEAR(a[1], v, tolerance);
 }
 
-TEST(CalibrationFile, EachFormatIsFound) {
+TEST(calibrationFile, EachFormatIsFound) {
   for (const Known& known : kKnown) {
     const Calibration found = parse(known.text, sized(known.width, known.height));
     EXPECT_EQ(found.format, known.format);
@@ -36,7 +36,7 @@ TEST(CalibrationFile, EachFormatIsFound) {
   }
 }
 
-TEST(CalibrationFile, ListsItsFormats) {
+TEST(calibrationFile, ListsItsFormats) {
   std::string names;
   for (const gslam::CalibrationFormat& format : gslam::calibrationFormats()) {
     names += format.name + " ";
@@ -45,7 +45,7 @@ TEST(CalibrationFile, ListsItsFormats) {
   EXPECT_EQ(names, "kalibr opencv ocamcalib basalt orbslam colmap euroc dso stella svo ");
 }
 
-TEST(CalibrationFile, WindowsLineEndsAndByteOrderMarksChangeNothing) {
+TEST(calibrationFile, WindowsLineEndsAndByteOrderMarksChangeNothing) {
   for (const Known& known : kKnown) {
     std::string text = "\xEF\xBB\xBF";
     for (const char* c = known.text; *c != '\0'; ++c)
@@ -58,7 +58,7 @@ TEST(CalibrationFile, WindowsLineEndsAndByteOrderMarksChangeNothing) {
   }
 }
 
-TEST(CalibrationFile, KalibrsChain) {
+TEST(calibrationFile, KalibrsChain) {
   const Calibration found = parse(kKalibr);
   ASSERT_EQ(found.rig.cameras.size(), 4U);
   EXPECT_EQ(found.body, "the IMU");
@@ -77,7 +77,7 @@ TEST(CalibrationFile, KalibrsChain) {
   EXPECT_LT((in_3 - Vec3d{{-2.60, 1.021, 3.032}}).norm(), 1e-12);
 }
 
-TEST(CalibrationFile, KalibrsModels) {
+TEST(calibrationFile, KalibrsModels) {
   const Calibration found = parse(kKalibr);
   EXPECT_EQ(found.rig.cameras[0].camera.modelName(), "radtan");
   EXPECT_EQ(found.rig.cameras[0].camera.parameters(),
@@ -104,7 +104,7 @@ TEST(CalibrationFile, KalibrsModels) {
   }
 }
 
-TEST(CalibrationFile, KalibrsDistortions) {
+TEST(calibrationFile, KalibrsDistortions) {
   const auto model = [](const std::string& distortion, const std::string& coefficients) {
     std::string text = with(kKalibr, "radtan", distortion);
     text = with(text, "[-0.28, 0.07, 0.0002, 1.76e-05]", coefficients);
@@ -120,7 +120,7 @@ TEST(CalibrationFile, KalibrsDistortions) {
              457.25 * -0.2 * rd / r + 248);
 }
 
-TEST(CalibrationFile, KalibrsImu) {
+TEST(calibrationFile, KalibrsImu) {
   const std::string imu =
       "accelerometer_noise_density: 0.0028\naccelerometer_random_walk: 0.00086\n"
       "gyroscope_noise_density: 0.00016\ngyroscope_random_walk: 2.2e-05\nrostopic: /imu0\n"
@@ -134,9 +134,14 @@ TEST(CalibrationFile, KalibrsImu) {
   EXPECT_EQ(found.rig.imu.gyro_noise, 0.00016);
   EXPECT_EQ(found.rig.imu.gyro_bias_walk, 2.2e-05);
   EXPECT_EQ(found.rig.imu.rate, 200);
+  EXPECT_TRUE(found.remarks.empty());
+  const std::string one = "Tw: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n";
+  EXPECT_TRUE(parse(imu + one).remarks.empty());
+  EXPECT_TRUE(says(parse(imu + with(one, "1", "1.01")).remarks, "scale and misalignment"));
+  EXPECT_TRUE(says(parse(imu + "time_offset: 0.01\n").remarks, "time_offset"));
 }
 
-TEST(CalibrationFile, KalibrsChainThatContradictsItselfIsSaid) {
+TEST(calibrationFile, KalibrsChainThatContradictsItselfIsSaid) {
   const std::string cam1 = std::string(kKalibr).substr(std::string(kKalibr).find("cam1"));
   const std::string pose =
       "  T_cam_imu:\n  - [0.0, -1.0, 0.0, 0.9]\n  - [1.0, 0.0, 0.0, 0.02]\n"
@@ -146,7 +151,7 @@ TEST(CalibrationFile, KalibrsChainThatContradictsItselfIsSaid) {
   EXPECT_NEAR((found.rig.cameras[1].T_body_camera.inverse() * Vec3d{{0, 0, 0}})[0], 0.9, 1e-12);
 }
 
-TEST(CalibrationFile, OpenCvsPair) {
+TEST(calibrationFile, OpenCvsPair) {
   const Calibration found = parse(kStereo, sized(640, 480));
   ASSERT_EQ(found.rig.cameras.size(), 2U);
   EXPECT_EQ(found.rig.cameras[0].camera.parameters(),
@@ -162,7 +167,7 @@ TEST(CalibrationFile, OpenCvsPair) {
   EXPECT_TRUE(says(parse(alone, sized(640, 480)).remarks, "there are no R and T"));
 }
 
-TEST(CalibrationFile, RosCameraInfo) {
+TEST(calibrationFile, RosCameraInfo) {
   const Calibration found = parse(kCameraInfo);
   EXPECT_EQ(found.rig.cameras[0].name, "narrow_stereo");
   EXPECT_EQ(found.rig.cameras[0].camera.parameters(),
@@ -173,7 +178,7 @@ TEST(CalibrationFile, RosCameraInfo) {
   EXPECT_EQ(parse(fisheye).rig.cameras[0].camera.modelName(), "kannala_brandt");
 }
 
-TEST(CalibrationFile, OpenCvsXml) {
+TEST(calibrationFile, OpenCvsXml) {
   const std::string text = R"(<?xml version="1.0"?>
 <opencv_storage>
 <calibration_time>"Thu 26 Nov 2026"</calibration_time>
@@ -192,7 +197,7 @@ TEST(CalibrationFile, OpenCvsXml) {
             (Values{500, 501, 320, 240, 0.1, 0.02, 0.003, 0.0004}));
 }
 
-TEST(CalibrationFile, OrbSlam2sPairAndDepth) {
+TEST(calibrationFile, OrbSlam2sPairAndDepth) {
   const Calibration pair = parse(kOrbslam2);
   ASSERT_EQ(pair.rig.cameras.size(), 2U);
   EXPECT_EQ(pair.rig.cameras[1].camera.modelName(), "pinhole");
@@ -208,7 +213,7 @@ TEST(CalibrationFile, OrbSlam2sPairAndDepth) {
   EXPECT_EQ(parse(sizeless, sized(1241, 376)).rig.cameras[0].camera, pair.rig.cameras[0].camera);
 }
 
-TEST(CalibrationFile, OrbSlam3sInertialPair) {
+TEST(calibrationFile, OrbSlam3sInertialPair) {
   const Calibration found = parse(kOrbslam3);
   ASSERT_EQ(found.rig.cameras.size(), 2U);
   EXPECT_EQ(found.body, "the IMU");
@@ -225,7 +230,7 @@ TEST(CalibrationFile, OrbSlam3sInertialPair) {
             1e-6);
 }
 
-TEST(CalibrationFile, ColmapsPixelsBeginAtTheBorder) {
+TEST(calibrationFile, ColmapsPixelsBeginAtTheBorder) {
   const Calibration found = parse(kColmap);
   ASSERT_EQ(found.rig.cameras.size(), 3U);
   EXPECT_EQ(found.rig.cameras[2].name, "camera7");
@@ -239,7 +244,7 @@ TEST(CalibrationFile, ColmapsPixelsBeginAtTheBorder) {
   EXPECT_TRUE(says(found.remarks, "does not say where cameras are"));
 }
 
-TEST(CalibrationFile, AllOfColmapsModels) {
+TEST(calibrationFile, AllOfColmapsModels) {
   const struct {
     const char* line;
     const char* model;
@@ -262,7 +267,7 @@ TEST(CalibrationFile, AllOfColmapsModels) {
                   "file:1:3: the model is 'THIN_PRISM_FISHEYE', expected one of SIMPLE_PINHOLE"));
 }
 
-TEST(CalibrationFile, Asl) {
+TEST(calibrationFile, Asl) {
   const Calibration found = parse(kAsl);
   EXPECT_EQ(found.rig.cameras[0].rate, 20);
   const Vec3d in_body = found.rig.cameras[0].T_body_camera * Vec3d{{1, 2, 3}};
@@ -271,7 +276,7 @@ TEST(CalibrationFile, Asl) {
                   "sensor_type is 'position', expected camera or imu"));
 }
 
-TEST(CalibrationFile, Dsos) {
+TEST(calibrationFile, Dsos) {
   const Calibration fov = parse(kDsoFov);
   EXPECT_EQ(fov.rig.cameras[0].camera.modelName(), "fov");
   EXPECT_TRUE(says(fov.remarks, "(crop) to 640 x 480"));
@@ -303,7 +308,7 @@ TEST(CalibrationFile, Dsos) {
                    "to 320 x 240"));
 }
 
-TEST(CalibrationFile, Svos) {
+TEST(calibrationFile, Svos) {
   const Camera camera = parse(kSvo).rig.cameras[0].camera;
   // vikit: s = 2 tan(d0 / 2), u = cx + fx x atan(r s) / (d0 r), all relative but 0.5.
   const double r = std::hypot(0.3, 0.2), w = 0.171631;
@@ -317,7 +322,7 @@ TEST(CalibrationFile, Svos) {
             (Values{414.5, 414.2, 348.8, 240, -0.28, 0.06, 0.001, 0.002}));
 }
 
-TEST(CalibrationFile, Basalts) {
+TEST(calibrationFile, Basalts) {
   const Calibration found = parse(kBasalt);
   ASSERT_EQ(found.rig.cameras.size(), 2U);
   EXPECT_EQ(found.rig.cameras[0].camera.modelName(), "kannala_brandt");
@@ -335,7 +340,7 @@ TEST(CalibrationFile, Basalts) {
                   "value0 / resolution has 1 elements, expected one for each of 2 cameras"));
 }
 
-TEST(CalibrationFile, StellasDepth) {
+TEST(calibrationFile, StellasDepth) {
   const Calibration found = parse(kStella);
   ASSERT_EQ(found.rig.cameras.size(), 2U);
   EXPECT_EQ(found.rig.cameras[0].kind, gslam::ImageKind::rgb);
@@ -345,7 +350,7 @@ TEST(CalibrationFile, StellasDepth) {
   EXPECT_NEAR(found.rig.cameras[1].depth_scale, 1 / 5000.0, 1e-15);
 }
 
-TEST(CalibrationFile, SaysWhereWhatIsWrong) {
+TEST(calibrationFile, SaysWhereWhatIsWrong) {
   const struct {
     std::string text;
     const char* message;
@@ -394,7 +399,7 @@ TEST(CalibrationFile, SaysWhereWhatIsWrong) {
   }
 }
 
-TEST(CalibrationFile, RefusesWrongOptions) {
+TEST(calibrationFile, RefusesWrongOptions) {
   gslam::CalibrationOptions options;
   options.format = "kalib";
   EXPECT_TRUE(has(errorOf(kKalibr, options), "is 'kalib', expected one of kalibr, "));
@@ -406,6 +411,7 @@ TEST(CalibrationFile, RefusesWrongOptions) {
   options.format = "basalt";
   EXPECT_TRUE(has(errorOf(kKalibr, options), "value0 is missing"));
   EXPECT_THROW(gslam::readCalibration("/nowhere/calibration.yaml"), gslam::FileError);
+  EXPECT_THROW(gslam::readCalibration("/"), gslam::FileError);
 }
 
 }  // namespace

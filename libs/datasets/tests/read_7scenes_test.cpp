@@ -1,12 +1,12 @@
 // Microsoft 7-Scenes: real data, its layout in small, and what goes wrong.
 #include <gslam/datasets/formats.h>
 
-#include "read_case.h"
+#include "format_case.h"
 #include "test_data.h"
 
 namespace {
 
-using namespace read_case;  // NOLINT(google-build-using-namespace)
+using namespace format_case;  // NOLINT(google-build-using-namespace)
 using gslam::sevenScenesFactory;
 
 const char* const kIdentity = "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
@@ -59,7 +59,7 @@ TEST(read7Scenes, RealSequence) {
 TEST(read7Scenes, DepthAndPosesFitTogether) {
   NEEDS_TEST_DATA();
   const auto dataset = open(sevenScenesFactory(), realFolder());
-  for (const std::size_t i : {0, 120, 260}) {
+  for (const std::size_t i : {0U, 120U, 260U}) {
     dataset->seek(i);
     const auto a = dataset->next();
     dataset->seek(i + 30);
@@ -144,7 +144,7 @@ TEST(read7Scenes, PosesThatAreWrong) {
   writeText(file, "0 0 0 0\n0 0 0 0\n0 0 0 0\n0 0 0 0\n");
   EXPECT_TRUE(says(remarksOf(), "no rotation"));
   fs::remove(file);
-  EXPECT_TRUE(says(remarksOf(), "1 frame have no pose.txt"));
+  EXPECT_TRUE(says(remarksOf(), "no pose.txt, of 1 frame"));
   writeText(file, "1 0 0 0\n0 1 0 0\n0 0 1 0\n");
   EXPECT_TRUE(has(errorOf(sevenScenesFactory(), folder.path()),
                   "frame-000001.pose.txt:3: the file has 12"));

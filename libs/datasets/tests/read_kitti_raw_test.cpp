@@ -6,11 +6,11 @@
 #include <cstdio>
 #include <sstream>
 
-#include "read_case.h"
+#include "format_case.h"
 
 namespace {
 
-using namespace read_case;  // NOLINT(google-build-using-namespace)
+using namespace format_case;  // NOLINT(google-build-using-namespace)
 using gslam::kittiRawFactory;
 
 // 2011-09-26 00:00:00 UTC, by `date -u -d 2011-09-26 +%s`.

@@ -6,12 +6,12 @@
 #include <chrono>
 #include <cstdio>
 
-#include "read_case.h"
+#include "format_case.h"
 #include "test_data.h"
 
 namespace {
 
-using namespace read_case;  // NOLINT(google-build-using-namespace)
+using namespace format_case;  // NOLINT(google-build-using-namespace)
 using gslam::kittiFactory;
 
 std::string projection(double fx, double cx, double cy, double tx, double ty, double tz) {
@@ -84,7 +84,7 @@ TEST(readKitti, RealStereo) {
   ASSERT_EQ(frames.size(), 51U);
   EXPECT_EQ(frames[1]->stamp, 104498900);
   EXPECT_EQ(frames[50]->stamp, 5195994000);
-  for (const std::size_t i : {0, 33, 50}) {
+  for (const std::size_t i : {0U, 33U, 50U}) {
     for (int camera = 0; camera < 2; ++camera) {
       const cv::Mat file = export_case::readImage(
           root + "/sequences/06/image_" + std::to_string(camera) + "/" + padded(i, 6) + ".png");

@@ -2,12 +2,12 @@
 // lie on epipolar lines is tested in tests/opencv.
 #include <gslam/datasets/formats.h>
 
-#include "read_case.h"
+#include "format_case.h"
 #include "test_data.h"
 
 namespace {
 
-using namespace read_case;  // NOLINT(google-build-using-namespace)
+using namespace format_case;  // NOLINT(google-build-using-namespace)
 using gslam::strechaFactory;
 
 const char* const kCamera =

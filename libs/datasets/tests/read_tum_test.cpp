@@ -6,12 +6,12 @@
 #include <functional>
 #include <sstream>
 
-#include "read_case.h"
+#include "format_case.h"
 #include "test_data.h"
 
 namespace {
 
-using namespace read_case;  // NOLINT(google-build-using-namespace)
+using namespace format_case;  // NOLINT(google-build-using-namespace)
 using gslam::tumFactory;
 
 // Four images of 16 x 12, with depth 5 ms later.
@@ -119,7 +119,7 @@ TEST(readTum, DepthAndPosesFitTogether) {
   NEEDS_TEST_DATA();
   const auto dataset = open(tumFactory(), realFolder());
   const auto frames = allFrames(*dataset);
-  for (const std::size_t i : {0, 20, 40}) {
+  for (const std::size_t i : {0U, 20U, 40U}) {
     const Frame &a = *frames[i], &b = *frames[i + 8];
     const SE3d T_b_a = truthBetween(*dataset, a, b);
     ASSERT_GT(T_b_a.rotation().angle(), 0.05) << "else it tells nothing";
@@ -223,7 +223,7 @@ TEST(readTum, FilesThatAreWrong) {
   writeText(tum / "groundtruth.txt", "100.0 0 0 0 0 0 0 1\n100.0 1 0 0 0 0 0 1\n");
   const auto twins = open(tumFactory(), tum.path());
   EXPECT_EQ(twins->info().ground_truth.size(), 1U);
-  EXPECT_TRUE(says(twins->info().remarks, "1 pose of groundtruth.txt were skipped"));
+  EXPECT_TRUE(says(twins->info().remarks, "in 1 line, skipped"));
   writeText(tum / "groundtruth.txt", "# nothing\n");
   EXPECT_TRUE(says(open(tumFactory(), tum.path())->info().remarks, "has no pose"));
   fs::remove(tum / "groundtruth.txt");

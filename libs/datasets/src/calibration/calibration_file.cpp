@@ -1,13 +1,13 @@
 // Finds the format of a calibration.
 #include <gslam/base/error.h>
 #include <gslam/datasets/calibration_file.h>
+#include <gslam/svar/detail/json_file.h>
 #include <gslam/svar/json.h>
 #include <gslam/svar_formats/xml.h>
 #include <gslam/svar_formats/yaml.h>
 
+#include <algorithm>
 #include <cstddef>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -128,14 +128,6 @@ const Format& formatOf(const Document& document) {
                        "; it " + whatItHas(document));
 }
 
-std::string textOfFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw FileError(path, "cannot be opened", errno);
-  std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (file.bad()) throw FileError(path, "cannot be read", errno);
-  return text;
-}
-
 }  // namespace
 }  // namespace calibration
 
@@ -159,7 +151,7 @@ Calibration parseCalibration(const std::string& text, const std::string& source,
 }
 
 Calibration readCalibration(const std::string& path, const CalibrationOptions& options) {
-  return parseCalibration(calibration::textOfFile(path), path, options);
+  return parseCalibration(detail::readFile(path), path, options);
 }
 
 }  // namespace v1

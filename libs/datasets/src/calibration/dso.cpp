@@ -3,7 +3,7 @@
 // github.com/JakobEngel/dso, README 3.1.1 and src/util/Undistort.cpp: four lines, the model, the
 // size of the images, how to crop, the size after that. A principal point below 1 means parameters
 // relative to the size, from the border of the first pixel on; others are pixels.
-#include <array>
+#include <cctype>
 
 #include "formats.h"
 #include "lines.h"
@@ -66,10 +66,13 @@ FirstLine readFirst(FieldReader& reader, const Document& document,
   }
   first.values = restOfLine(reader, "a parameter");
   if (is_bare) first.model = modelOfBare(first, document.options, remarks);
-  if (first.model != nullptr && first.values.size() == first.model->numbers) return first;
+  std::string expected = "5 or 8";
+  if (first.model != nullptr) {
+    if (first.values.size() == first.model->numbers) return first;
+    expected = std::to_string(first.model->numbers);
+  }
   reader.fail(at, "there are " + std::to_string(first.values.size()) + " parameters, expected " +
-                      (is_bare ? "5 or 8" : std::to_string(first.model->numbers)) +
-                      ": fx fy cx cy and those of the distortion");
+                      expected + ": fx fy cx cy and those of the distortion");
 }
 
 std::vector<double> inPixels(std::vector<double> values, ImageSize size) {

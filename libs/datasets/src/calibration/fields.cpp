@@ -114,7 +114,7 @@ std::vector<double> Fields::numbers() const {
 }
 
 std::vector<double> Fields::numbers(std::size_t count) const {
-  const std::vector<double> all = numbers();
+  std::vector<double> all = numbers();
   if (all.size() == count) return all;
   fail("has " + std::to_string(all.size()) + " numbers, expected " + std::to_string(count));
 }

@@ -149,6 +149,27 @@ double noiseOf(const Fields& imu, const std::string& name) {
   return value;
 }
 
+bool isIdentity(const std::vector<double>& matrix) {
+  for (std::size_t i = 0; i < matrix.size(); ++i) {
+    if (matrix[i] != (i % 4 == 0 ? 1 : 0)) return false;  // of 3 x 3
+  }
+  return true;
+}
+
+// What the models of the unit beyond noise have, in Kalibr's words and in OpenVINS'.
+void sayUnused(const Fields& imu, Calibration& result) {
+  bool is_scaled = imu.hasAnyOf({"gyroscopes", "accelerometers"});
+  for (const char* name : {"Tw", "Ta", "R_IMUtoGYRO", "R_IMUtoACC"}) {
+    is_scaled = is_scaled || (imu.has(name) && !isIdentity(imu[name].numbers(9)));
+  }
+  if (is_scaled) {
+    result.remarks.push_back("scale and misalignment of the IMU were not taken over");
+  }
+  if (imu.number("time_offset", 0) != 0) {
+    result.remarks.push_back("the time_offset of the IMU was not taken over");
+  }
+}
+
 void readImu(const Fields& imu, bool has_cameras, Calibration& result) {
   ImuCalibration& calibration = result.rig.imu;
   calibration.accel_noise = noiseOf(imu, kImuNoise);
@@ -162,6 +183,7 @@ void readImu(const Fields& imu, bool has_cameras, Calibration& result) {
   if (has_cameras && !result.rig.has_imu) {
     result.remarks.push_back("no camera has T_cam_imu: where the IMU is, is not known");
   }
+  sayUnused(imu, result);
   result.rig.has_imu = true;
   if (result.body.empty()) result.body = "the IMU";
 }

@@ -4,6 +4,7 @@
 #include <gslam/core/detail/field_reader.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -68,15 +69,18 @@ std::vector<std::size_t> numbersOf(const std::string& text) {
 }
 
 std::vector<std::size_t> wantedCameras(const Asl& asl) {
-  const std::vector<std::size_t> all = camerasIn(*asl.tree, asl.mav);
+  std::vector<std::size_t> all = camerasIn(*asl.tree, asl.mav);
   const std::string text = textOf(asl.parameters, "cameras");
   if (text.empty()) return all;
-  const std::vector<std::size_t> wanted = numbersOf(text);
+  std::vector<std::size_t> wanted = numbersOf(text);
   for (auto number = wanted.begin(); number != wanted.end(); ++number) {
     const bool is_there = std::find(all.begin(), all.end(), *number) != all.end();
     if (is_there && std::find(wanted.begin(), number, *number) == number) continue;
     std::string names;
-    for (std::size_t each : all) names += (names.empty() ? "" : ",") + std::to_string(each);
+    for (std::size_t each : all) {
+      names += names.empty() ? "" : ",";
+      names += std::to_string(each);
+    }
     throw ArgumentError("cameras", "is '" + text + "', expected some of " + names +
                                        ", each once, in " + asl.tree->root());
   }
@@ -253,8 +257,7 @@ std::unique_ptr<Dataset> deliverAsl(
       sequence.remarks.say("camera " + camera.name + " is not calibrated: nothing says its model");
     }
   }
-  std::vector<std::string> names =
-      makeFrames(sequence, images, static_cast<std::int64_t>(tolerance * 1e9 + 0.5));
+  std::vector<std::string> names = makeFrames(sequence, images, std::llround(tolerance * 1e9));
   loadImageFiles(sequence, {asl.tree, std::move(names)});
   return deliver(std::move(sequence), prefetchOf(asl.parameters));
 }

@@ -19,6 +19,7 @@
 #include "../reading/image_list.h"
 #include "../reading/looks_like.h"
 #include "../reading/sequence.h"
+#include "camera_parameters.h"
 #include "icl_mirror.h"
 #include "icl_original.h"
 #include "number_file.h"
@@ -179,7 +180,7 @@ class IclReader {
   // @return whether poses are to be mirrored
   bool addColour(const ImageShape& shape) {
     Calibration calibration = readCalibration(shape);
-    const Camera given = cameraOfParameter(parameters_);
+    const Camera given = wantedCamera(parameters_);
     if (given.isValid()) calibration.camera = given;
     sequence_.info.sensors.cameras.push_back(cameraOf("rgb", calibration.camera));
     return calibration.is_mirrored && parameters_.get<bool>("mirror", true);
@@ -240,7 +241,7 @@ DatasetFactory iclFactory() {
   factory.parameters = reading::commonParameters();
   factory.parameters.set("depth", true);
   factory.parameters.set("depth_factor", reading::kDepthUnits);
-  factory.parameters.set("camera", "");
+  reading::addCameraParameters(factory.parameters);
   factory.parameters.set("mirror", true);
   factory.parameters.set("unit", 0.0);
   factory.recognizes = reading::recognizesAs("icl");

@@ -131,9 +131,9 @@ class KittiReader {
         ++used;
       }
       if (used < images_[k].size()) {
-        sequence_.remarks.say(countText(images_[k].size() - used, "image") + " of " +
-                              imageFolder(cameras_[k]) + " have no partner in " +
-                              imageFolder(cameras_[0]));
+        sequence_.remarks.say("in " + imageFolder(cameras_[0]) + " there is no partner for " +
+                              countText(images_[k].size() - used, "image") + " of " +
+                              imageFolder(cameras_[k]));
       }
       lists.push_back(std::move(list));
     }

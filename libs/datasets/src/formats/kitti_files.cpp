@@ -81,9 +81,12 @@ std::vector<NumberedFile> numberedFiles(const FileTree& tree, const std::string&
       remarks.skip("files without a number in their names", joined(folder, name));
     }
   }
-  std::stable_sort(files.begin(), files.end(), [](const NumberedFile& a, const NumberedFile& b) {
-    return a.number < b.number;
-  });
+  const auto isBefore = [](const NumberedFile& x, const NumberedFile& y) {
+    return x.number < y.number;
+  };
+  if (!std::is_sorted(files.begin(), files.end(), isBefore)) {
+    std::stable_sort(files.begin(), files.end(), isBefore);
+  }
   const auto isTwin = [&remarks](const NumberedFile& a, const NumberedFile& b) {
     if (a.number != b.number) return false;
     remarks.skip("files whose number another one has", b.name);

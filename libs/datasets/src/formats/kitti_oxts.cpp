@@ -133,8 +133,8 @@ std::vector<std::int64_t> readDateTimes(const FileTree& tree, const std::string&
     const std::string time = in.isLineEnd() ? "" : in.word();
     std::int64_t days = 0, nanoseconds = 0;
     if (!readDate(date, days) || !readTime(time, nanoseconds)) {
-      in.fail(at, detail::quotedText(date + " " + time) +
-                      " is no date and time, expected such as 2011-09-26 13:02:25.951199337");
+      in.fail(at, detail::quotedText(date) + " and " + detail::quotedText(time) +
+                      " are no date and time, expected such as 2011-09-26 13:02:25.951199337");
     }
     in.skipWord();
     in.endLine();

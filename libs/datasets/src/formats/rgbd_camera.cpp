@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "../reading/camera_words.h"
+#include "camera_parameters.h"
 #include "sequences.h"
 
 namespace gslam {
@@ -40,9 +40,9 @@ Camera cameraOfText(const std::string& text, const std::string& source, int widt
   }
 }
 
-Camera cameraOfParameter(const Svar& parameters) {
-  const std::string words = parameters.get<std::string>("camera", "");
-  return words.empty() ? Camera() : cameraOfWords(words);
+Camera wantedCamera(const Svar& parameters) {
+  CameraSensor sensor;
+  return overrideCamera(parameters, sensor) ? sensor.camera : Camera();
 }
 
 CameraSensor depthOf(const CameraSensor& colour, const FileTree& tree, const std::string& file,

@@ -21,8 +21,8 @@ namespace reading {
 /// @throws ParseError
 Camera cameraOfText(const std::string& text, const std::string& source, int width, int height);
 
-/// Parameter `camera` as cameraOfWords() reads it; none where it is not given.
-Camera cameraOfParameter(const Svar& parameters);
+/// The camera that the user wants, see overrideCamera(); none where that is not said.
+Camera wantedCamera(const Svar& parameters);
 
 /// The depth of a colour camera's pixels. Reads an image of it.
 /// @param colour  the camera

@@ -20,6 +20,7 @@
 #include "../reading/file_tree.h"
 #include "../reading/looks_like.h"
 #include "../reading/sequence.h"
+#include "camera_parameters.h"
 #include "number_file.h"
 #include "rgbd_camera.h"
 #include "sequences.h"
@@ -145,7 +146,7 @@ class SevenScenesReader {
   }
 
   Camera cameraFor(const ImageShape& shape) {
-    const Camera given = cameraOfParameter(parameters_);
+    const Camera given = wantedCamera(parameters_);
     if (given.isValid()) return given;
     const std::string file = intrinsicsFile();
     if (file.empty()) {
@@ -208,7 +209,8 @@ class SevenScenesReader {
       }
     }
     if (missing != 0) {
-      sequence_.remarks.say(countText(missing, "frame") + " have no pose.txt: no ground truth");
+      sequence_.remarks.say("there is no ground truth, no pose.txt, of " +
+                            countText(missing, "frame"));
     }
   }
 
@@ -251,7 +253,7 @@ DatasetFactory sevenScenesFactory() {
   factory.parameters.set("sequence", Svar());
   factory.parameters.set("depth", true);
   factory.parameters.set("depth_factor", reading::kDepthUnits);
-  factory.parameters.set("camera", "");
+  reading::addCameraParameters(factory.parameters);
   factory.recognizes = reading::recognizesAs("7scenes");
   factory.open = [](const std::string& path, const Svar& parameters) {
     return reading::SevenScenesReader(path, parameters).open();

@@ -18,6 +18,7 @@
 #include "../reading/image_list.h"
 #include "../reading/looks_like.h"
 #include "../reading/sequence.h"
+#include "camera_parameters.h"
 #include "rgbd_camera.h"
 #include "sequences.h"
 
@@ -125,7 +126,7 @@ class TumReader {
   }
 
   Camera calibrationFor(const ImageShape& shape) {
-    const Camera given = cameraOfParameter(parameters_);
+    const Camera given = wantedCamera(parameters_);
     const std::string recording = recordingOf(tree_->text(below("rgb.txt")));
     const Published* published = publishedFor(sequence_.info.name);
     if (published == nullptr) published = publishedFor(recording);
@@ -142,7 +143,7 @@ class TumReader {
     }
     sequence_.remarks.say(
         "neither the name nor rgb.txt says freiburg1, 2 or 3: the calibration is ROS's default, "
-        "525 525 319.5 239.5, which is a guess; parameter camera sets it");
+        "525 525 319.5 239.5, which is a guess; parameters camera and calibration set it");
     return cameraOfValues({525, 525, 319.5, 239.5}, shape);
   }
 
@@ -175,8 +176,8 @@ class TumReader {
     for (detail::FieldReader in(text, source, ""); in.nextLine();) ++lines;
     if (truth.empty()) sequence_.remarks.say("groundtruth.txt has no pose");
     if (lines > truth.size()) {
-      sequence_.remarks.say(countText(lines - truth.size(), "pose") +
-                            " of groundtruth.txt were skipped: another before has the same stamp");
+      sequence_.remarks.say("groundtruth.txt has the stamp of another before it in " +
+                            countText(lines - truth.size(), "line") + ", skipped");
     }
   }
 
@@ -214,7 +215,7 @@ DatasetFactory tumFactory() {
   factory.parameters.set("depth", true);
   factory.parameters.set("tolerance", 0.02);
   factory.parameters.set("depth_factor", reading::kDepthUnits);
-  factory.parameters.set("camera", "");
+  reading::addCameraParameters(factory.parameters);
   factory.recognizes = reading::recognizesAs("tum");
   factory.open = [](const std::string& path, const Svar& parameters) {
     return reading::TumReader(path, parameters).open();

@@ -14,6 +14,7 @@
 #include <gslam/datasets/calibration_file.h>
 #include <gslam/datasets/formats.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <utility>
@@ -21,6 +22,7 @@
 #include "../reading/image_list.h"
 #include "../reading/looks_like.h"
 #include "asl.h"
+#include "camera_parameters.h"
 #include "photometric_correction.h"
 
 namespace gslam {
@@ -113,22 +115,17 @@ class TumMono {
   void readCamera() {
     CameraSensor sensor;
     sensor.name = "camera";
-    const std::string calibration = parameters_.get<std::string>("calibration");
     CalibrationOptions options;
-    if (!calibration.empty()) {
-      take(readCalibration(calibration), calibration, sensor);
+    options.format = "dso";
+    if (overrideCamera(parameters_, sensor)) {
+      // as the user wants it
     } else if (tree_->has("camera.txt")) {
-      options.format = "dso";
-      take(calibrationIn(*tree_, "camera.txt", sequence_.remarks, options), "camera.txt", sensor);
+      const Calibration found = calibrationIn(*tree_, "camera.txt", sequence_.remarks, options);
+      sensor.camera = found.rig.cameras[0].camera;
     } else {
       sequence_.remarks.say("there is no camera.txt: the camera is not calibrated");
     }
     sequence_.info.sensors.cameras.push_back(sensor);
-  }
-
-  static void take(const Calibration& calibration, const std::string& file, CameraSensor& sensor) {
-    if (calibration.rig.cameras.empty()) throw FileError(file, "has no camera, expected one");
-    sensor.camera = calibration.rig.cameras[0].camera;
   }
 
   // Files by their names without the ending, which are the ids of times.txt.
@@ -230,7 +227,7 @@ DatasetFactory tumMonoFactory() {
   factory.name = "tummono";
   factory.description = "TUM monoVO: one camera with exposures and photometric calibration";
   factory.parameters = reading::commonParameters();
-  factory.parameters.set("calibration", "");
+  reading::addCameraParameters(factory.parameters);
   factory.parameters.set("photometric", "none");
   factory.recognizes = reading::recognizesAs(factory.name);
   factory.open = reading::openTumMono;

@@ -58,7 +58,7 @@ std::string fileOf(const cv::Mat& matrix, const cv::Mat& coefficients, bool is_x
   return file.releaseAndGetString();
 }
 
-TEST(CalibrationOfOpenCv, SeesWhereOpenCvDoes) {
+TEST(calibrationOfOpenCv, SeesWhereOpenCvDoes) {
   const cv::Matx33d matrix(500, 0, 320.25, 0, 501, 240.5, 0, 0, 1);
   const std::vector<double> all = {0.1,    -0.02, 0.001, -0.002, 0.003,  0.11, -0.01,
                                    0.0025, 0.002, 0.001, -0.001, 0.0005, 0.01, -0.02};
@@ -76,7 +76,7 @@ TEST(CalibrationOfOpenCv, SeesWhereOpenCvDoes) {
   }
 }
 
-TEST(CalibrationOfOpenCv, FisheyeSeesWhereOpenCvDoes) {
+TEST(calibrationOfOpenCv, FisheyeSeesWhereOpenCvDoes) {
   const cv::Matx33d matrix(300, 0, 320.25, 0, 301, 240.5, 0, 0, 1);
   const cv::Vec4d k(0.1, -0.02, 0.003, -0.0004);
   const Calibration found =
@@ -87,7 +87,7 @@ TEST(CalibrationOfOpenCv, FisheyeSeesWhereOpenCvDoes) {
   expectSame(found.rig.cameras[0].camera, points, pixels);
 }
 
-TEST(CalibrationOfOpenCv, KalibrsFilesToo) {
+TEST(calibrationOfOpenCv, KalibrsFilesToo) {
   NEEDS_TEST_DATA();
   const std::string folder = test_data::folder() + "calibrations/kalibr/";
   const std::vector<cv::Point3d> points = pointsAhead(0.4);
@@ -107,7 +107,7 @@ TEST(CalibrationOfOpenCv, KalibrsFilesToo) {
   }
 }
 
-TEST(CalibrationOfOpenCv, ThePairOfStereoCalib) {
+TEST(calibrationOfOpenCv, ThePairOfStereoCalib) {
   cv::Matx33d rotation;
   cv::Rodrigues(cv::Vec3d(0.02, -0.3, 0.1), rotation);
   const cv::Vec3d translation(-0.11, 0.002, 0.003);

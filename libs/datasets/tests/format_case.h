@@ -1,10 +1,9 @@
-// What tests of dataset readers share: files to write, archives of them, and frames that are warped
+// What tests of formats share: files to write, what opening them says, and frames that are warped
 // into each other.
-#ifndef GSLAM_DATASETS_TESTS_READ_CASE_H
-#define GSLAM_DATASETS_TESTS_READ_CASE_H
+#ifndef GSLAM_DATASETS_TESTS_FORMAT_CASE_H
+#define GSLAM_DATASETS_TESTS_FORMAT_CASE_H
 
 #include <gslam/core/dataset.h>
-#include <gslam/core/parameters.h>
 #include <gslam/core/registry.h>
 #include <gtest/gtest.h>
 
@@ -22,11 +21,11 @@
 #include <vector>
 
 #include "export_case.h"
+#include "reading_case.h"
 
-namespace read_case {
+namespace format_case {
 
 using export_case::says;
-using export_case::TempFolder;
 using gslam::Dataset;
 using gslam::DatasetFactory;
 using gslam::Frame;
@@ -38,6 +37,9 @@ using gslam::SO3d;
 using gslam::Svar;
 using gslam::Vec2d;
 using gslam::Vec3d;
+using reading_case::allFrames;
+using reading_case::TempFolder;
+using reading_case::zipFolder;
 
 namespace fs = std::filesystem;
 
@@ -71,31 +73,19 @@ inline void cutInHalf(const std::string& path) {
   fs::resize_file(path, fs::file_size(path) / 2);
 }
 
-/// Opens as the command does: the given parameters over the defaults.
 inline std::unique_ptr<Dataset> open(const DatasetFactory& factory, const std::string& path,
                                      const Svar& parameters = Svar()) {
-  return factory.open(path, gslam::completeParameters(factory.parameters, parameters));
+  return reading_case::openWith(factory, path, parameters);
 }
 
-/// What it throws, as text; empty where it throws nothing.
+/// What opening throws, as text; empty where it throws nothing.
 inline std::string errorOf(const DatasetFactory& factory, const std::string& path,
                            const Svar& parameters = Svar()) {
-  try {
-    open(factory, path, parameters);
-  } catch (const gslam::Error& error) {
-    return error.what();
-  }
-  return "";
+  return reading_case::messageOf([&]() { open(factory, path, parameters); });
 }
 
 inline bool has(const std::string& text, const std::string& words) {
   return text.find(words) != std::string::npos;
-}
-
-inline std::vector<std::shared_ptr<const Frame>> allFrames(Dataset& dataset) {
-  std::vector<std::shared_ptr<const Frame>> frames;
-  while (auto frame = dataset.next()) frames.push_back(frame);
-  return frames;
 }
 
 /// Whether two datasets deliver the same.
@@ -119,62 +109,6 @@ inline void expectSame(Dataset& a, Dataset& b) {
       EXPECT_EQ(frames[i]->images[k].image, others[i]->images[k].image);
     }
   }
-}
-
-// Archives, stored without compression. Source: PKWARE's APPNOTE.TXT.
-inline std::uint32_t checksum(const std::string& bytes) {
-  std::uint32_t sum = 0xFFFFFFFFU;
-  for (const char c : bytes) {
-    sum ^= static_cast<std::uint8_t>(c);
-    for (int i = 0; i < 8; ++i) sum = (sum >> 1) ^ ((sum & 1) != 0 ? 0xEDB88320U : 0);
-  }
-  return ~sum;
-}
-
-class ZipWriter {
- public:
-  void add(const std::string& name, const std::string& content) {
-    const auto begin = static_cast<std::uint32_t>(bytes_.size());
-    const std::string facts = headOf(name, content);
-    bytes_ += std::string("PK\3\4") + number(20, 2) + facts + name + content;
-    directory_ += std::string("PK\1\2") + number(20, 2) + number(20, 2) + facts + number(0, 2) +
-                  number(0, 2) + number(0, 2) + number(0, 4) + number(begin, 4) + name;
-    ++count_;
-  }
-  std::string finished() const {
-    return bytes_ + directory_ + "PK\5\6" + number(0, 2) + number(0, 2) + number(count_, 2) +
-           number(count_, 2) + number(static_cast<std::uint32_t>(directory_.size()), 4) +
-           number(static_cast<std::uint32_t>(bytes_.size()), 4) + number(0, 2);
-  }
-
- private:
-  static std::string number(std::uint32_t value, int size) {
-    std::string text;
-    for (int i = 0; i < size; ++i) text += static_cast<char>(value >> (8 * i) & 0xFF);
-    return text;
-  }
-  static std::string headOf(const std::string& name, const std::string& content) {
-    const auto size = static_cast<std::uint32_t>(content.size());
-    return number(0, 2) + number(0, 2) + number(0, 2) + number(0x21, 2) +
-           number(checksum(content), 4) + number(size, 4) + number(size, 4) +
-           number(static_cast<std::uint32_t>(name.size()), 2) + number(0, 2);
-  }
-
-  std::string bytes_, directory_;
-  std::uint32_t count_ = 0;
-};
-
-/// An archive of all files in a folder.
-/// @param prefix  of the names in it, such as "seq/"
-inline void zipFolder(const std::string& folder, const std::string& archive,
-                      const std::string& prefix = "") {
-  ZipWriter zip;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file()) continue;
-    const std::string name = fs::relative(entry.path(), folder).generic_string();
-    zip.add(prefix + name, export_case::readText(entry.path().string()));
-  }
-  writeText(archive, zip.finished());
 }
 
 /// Metres; 0: unknown.
@@ -237,6 +171,6 @@ inline SE3d truthBetween(const Dataset& dataset, const Frame& a, const Frame& b)
   return T_w_b.inverse() * T_w_a;
 }
 
-}  // namespace read_case
+}  // namespace format_case
 
-#endif  // GSLAM_DATASETS_TESTS_READ_CASE_H
+#endif  // GSLAM_DATASETS_TESTS_FORMAT_CASE_H
