@@ -22,7 +22,8 @@ namespace reading {
 /// @param bytes  all of the file
 /// @param name   what errors call it
 /// @throws FileError when it is empty, or no image, or ends early
-GSLAM_DATASETS_EXPORT Image decodeImage(const std::vector<std::uint8_t>& bytes, const std::string& name);
+GSLAM_DATASETS_EXPORT Image decodeImage(const std::vector<std::uint8_t>& bytes,
+                                        const std::string& name);
 
 /// The same of a file in a tree.
 Image readImage(const FileTree& tree, const std::string& file);
@@ -41,7 +42,8 @@ struct ImageShape {
 GSLAM_DATASETS_EXPORT ImageShape shapeOf(const Image& image);
 
 /// @throws FileError when an image has not that shape
-GSLAM_DATASETS_EXPORT void checkShape(const Image& image, const ImageShape& shape, const std::string& name);
+GSLAM_DATASETS_EXPORT void checkShape(const Image& image, const ImageShape& shape,
+                                      const std::string& name);
 
 }  // namespace reading
 }  // namespace v1

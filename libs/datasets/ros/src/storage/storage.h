@@ -55,7 +55,7 @@ inline bool isStamp(std::uint64_t nanoseconds) noexcept {
 /// @throws FileError that says what is wrong and where
 GSLAM_DATASETS_ROS_EXPORT std::unique_ptr<Storage> openBag(std::shared_ptr<const ByteSource> file);
 GSLAM_DATASETS_ROS_EXPORT std::unique_ptr<Storage> openMcap(std::shared_ptr<const ByteSource> file);
-std::unique_ptr<Storage> openDb3(const std::string& path);
+GSLAM_DATASETS_ROS_EXPORT std::unique_ptr<Storage> openDb3(const std::string& path);
 /// @}
 
 /// A file of any of these kinds, by its ending. @throws FileError for another
