@@ -10,6 +10,7 @@
 #include "dataset_option.h"
 #include "interrupt.h"
 #include "progress.h"
+#include "stdout_guard.h"
 
 namespace app {
 namespace {
@@ -169,6 +170,7 @@ gslam::DatasetCheck check(gslam::Dataset& dataset) {
   how.progress = [&progress](std::size_t done, std::size_t total) { progress.show(done, total); };
   how.stop = &stop;
   const OnInterrupt interrupt([&stop] { stop = true; });
+  const StdoutGuard guard;  // what plugins print
   return gslam::checkDataset(dataset, how);
 }
 
@@ -186,8 +188,11 @@ int infoCommand(const std::vector<std::string>& arguments) {
   options.arg<bool>("check", false, "read all of it, and say what is wrong with it");
   if (!options.read(arguments)) return kSuccess;
   gslam::Plugins plugins;
-  const std::unique_ptr<gslam::Dataset> dataset =
-      openDataset(plugins, options, options.oneWord("DATASET"));
+  std::unique_ptr<gslam::Dataset> dataset;
+  {
+    const StdoutGuard guard;  // what plugins print
+    dataset = openDataset(plugins, options, options.oneWord("DATASET"));
+  }
   Svar result = describe(dataset->info());
   if (!options.isJson()) printInfo(dataset->info());
   int status = kSuccess;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <exception>
 #include <memory>
 #include <utility>
 
@@ -119,12 +121,20 @@ class Check {
       if (frame == nullptr) return false;
       failures_in_a_row_ = 0;
       checkFrame(*frame);
-    } catch (const Error& error) {
-      ++unreadable_;
-      ++failures_in_a_row_;
-      errors_.add(error.what(), "frame " + std::to_string(place) + " cannot be read");
+    } catch (const FileError& error) {
+      addUnreadable(place, std::string(error.what()).substr(error.path().size() + 2), error.path());
+    } catch (const std::exception& error) {
+      addUnreadable(place, error.what(), "");
     }
     return true;
+  }
+
+  // The file stands in the place, so that the same of many is one complaint.
+  void addUnreadable(std::size_t place, const std::string& problem, const std::string& file) {
+    ++unreadable_;
+    ++failures_in_a_row_;
+    errors_.add("cannot be read: " + problem,
+                "frame " + std::to_string(place) + (file.empty() ? "" : " (" + file + ")"));
   }
 
   void checkFrame(const Frame& frame) {
@@ -134,7 +144,9 @@ class Check {
       if (frame.stamp <= result_.last_stamp) {
         errors_.add("its stamp is not after that of the frame before", where);
       }
-      result_.longest_step = std::max(result_.longest_step, frame.stamp - result_.last_stamp);
+      if (frame.stamp > result_.last_stamp) {
+        result_.longest_step = std::max(result_.longest_step, frame.stamp - result_.last_stamp);
+      }
     } else {
       result_.first_stamp = frame.stamp;
     }
@@ -146,13 +158,9 @@ class Check {
   }
 
   void checkSamples(const Frame& frame, const std::string& where) {
-    std::int64_t before = result_.frames > 0 ? result_.last_stamp : INT64_MIN;
+    checkOrder(frame.imu, frame.stamp, "an inertial sample", where);
+    checkOrder(frame.gnss, frame.stamp, "a satellite position", where);
     for (const ImuSample& sample : frame.imu) {
-      if (sample.stamp < before || sample.stamp > frame.stamp) {
-        errors_.add("an inertial sample is not between it and the frame before, or not in order",
-                    where);
-      }
-      before = sample.stamp;
       if (!isFinite(sample.gyro) || !isFinite(sample.accel)) {
         errors_.add("an inertial sample has numbers that are not finite", where);
         continue;
@@ -173,6 +181,18 @@ class Check {
     result_.gnss_samples += frame.gnss.size();
   }
 
+  template <class Samples>
+  void checkOrder(const Samples& samples, std::int64_t stamp, const std::string& what,
+                  const std::string& where) {
+    std::int64_t before = result_.frames > 0 ? result_.last_stamp : INT64_MIN;
+    for (const auto& sample : samples) {
+      if (sample.stamp < before || sample.stamp > stamp) {
+        errors_.add(what + " is not between it and the frame before, or not in order", where);
+      }
+      before = sample.stamp;
+    }
+  }
+
   void checkImage(const CameraImage& image, const std::string& where) {
     ++result_.images;
     const std::string name = "the image of camera '" + image.name + "'";
@@ -187,12 +207,22 @@ class Check {
                       std::to_string(image.camera.height()),
                   where);
     }
-    if (image.kind == ImageKind::depth) {
-      if (!(image.depth_scale > 0)) errors_.add(name + " has no depth scale", where);
-      collectDepth(image, depths_);
-    } else if (isPhotographic(image.kind) && isOneColour(image.image)) {
+    if (isPhotographic(image.kind) && isOneColour(image.image)) {
       warnings_.add(name + " has one colour everywhere", where);
     }
+    if (image.kind == ImageKind::depth) checkDepth(image, name, where);
+  }
+
+  void checkDepth(const CameraImage& image, const std::string& name, const std::string& where) {
+    const PixelType type = image.image.type();
+    if (image.image.channels() != 1 || (type != PixelType::u16 && type != PixelType::f32)) {
+      errors_.add(name + " is " + image.image.text() + ", expected one channel of u16 or f32",
+                  where);
+      return;
+    }
+    if (!(image.depth_scale > 0)) errors_.add(name + " has no depth scale", where);
+    if (isOneColour(image.image)) warnings_.add(name + " is the same everywhere", where);
+    collectDepth(image, depths_);
   }
 
   void checkCameras(const Frame& frame, const std::string& where) {

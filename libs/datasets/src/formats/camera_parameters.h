@@ -7,6 +7,8 @@
 
 #include <string>
 
+#include "../reading/remarks.h"
+
 namespace gslam {
 inline namespace v1 {
 namespace reading {
@@ -16,14 +18,17 @@ namespace reading {
 void addCameraParameters(Svar& parameters);
 
 /// Gives a camera the model that the user wants.
+/// @param remarks  what there is to say of the calibration
 /// @return whether the user wants one
 /// @throws ArgumentError when both are given, and what reading them throws
-bool overrideCamera(const Svar& parameters, CameraSensor& sensor);
+bool overrideCamera(const Svar& parameters, CameraSensor& sensor, Remarks& remarks);
 
 /// A camera of a calibration file's text, see parseCalibration().
-/// @param name   what errors call the file
-/// @param index  which of its cameras
-CameraSensor cameraOfFile(const std::string& text, const std::string& name, int index);
+/// @param name     what errors call the file
+/// @param index    which of its cameras
+/// @param remarks  what there is to say of it
+CameraSensor cameraOfFile(const std::string& text, const std::string& name, int index,
+                          Remarks& remarks);
 
 }  // namespace reading
 }  // namespace v1

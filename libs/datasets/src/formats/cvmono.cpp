@@ -3,12 +3,14 @@
 //     a folder or archive of images, in natural order of their names: frame2.png before frame10.png
 //     a pattern of names, cvmono:/data/*.jpg
 //     a video, a number of a device (cvmono:0), a device file, an address (cvmono:rtsp://...)
+#include <gslam/base/log_hook.h>
 #include <gslam/core/opencv.h>
 #include <gslam/datasets/formats.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <mutex>
 #include <opencv2/videoio.hpp>
 #include <opencv2/videoio/registry.hpp>
@@ -26,7 +28,8 @@ namespace reading {
 namespace {
 
 constexpr double kUsualRate = 30;
-constexpr double kMostFrames = 1e9;
+constexpr double kLeastRate = 1e-6, kMostRate = 1e6;
+constexpr double kMostFrames = 1e7;
 
 struct Options {
   double rate = 0;  // frames a second; 0: as the video says, else kUsualRate
@@ -39,8 +42,9 @@ Options optionsOf(const Svar& parameters) {
   options.rate = parameters.get<double>("rate", 0);
   options.every = parameters.get<int>("every", 1);
   options.parameters = parameters;
-  if (!(options.rate >= 0 && options.rate <= 1e6)) {
-    throw ArgumentError("rate", "is not from 0 (as the video says) to 1e6 frames a second");
+  const bool is_rate = options.rate >= kLeastRate && options.rate <= kMostRate;
+  if (!is_rate && options.rate != 0) {
+    throw ArgumentError("rate", "is not from 1e-6 to 1e6 frames a second, nor 0 (as it is stated)");
   }
   if (options.every < 1) {
     throw ArgumentError("every", "is " + std::to_string(options.every) + ", expected 1 or more");
@@ -55,7 +59,7 @@ DatasetInfo infoOf(const std::string& name, const Options& options, Remarks& rem
   info.body = "the camera";
   CameraSensor camera;
   camera.name = "camera";
-  if (!overrideCamera(options.parameters, camera)) {
+  if (!overrideCamera(options.parameters, camera, remarks)) {
     remarks.say("the camera is not calibrated; give one with the parameter 'camera'");
   }
   info.sensors.cameras.push_back(camera);
@@ -79,11 +83,11 @@ void checkCamera(const CameraSensor& sensor, int width, int height, const std::s
 // --- images ---
 
 std::unique_ptr<Dataset> openImages(std::shared_ptr<const FileTree> tree,
-                                    std::vector<std::string> names, const std::string& title,
+                                    std::vector<std::string> names, Remarks remarks,
                                     const Options& options) {
-  if (names.empty()) throw FileError(title, "has no images, expected png, jpg or others");
   std::sort(names.begin(), names.end(), isBeforeNaturally);
   Sequence sequence;
+  sequence.remarks = std::move(remarks);
   sequence.info = infoOf(tree->baseName(), options, sequence.remarks);
   const double rate = options.rate > 0 ? options.rate : kUsualRate;
   sequence.info.clock = "the number of the image, by the rate";
@@ -118,22 +122,21 @@ std::unique_ptr<Dataset> openPattern(const std::string& path, const Options& opt
   for (const std::string& name : tree->files("")) {
     if (isImageName(name) && matches(name.c_str(), pattern.c_str())) names.push_back(name);
   }
-  return openImages(std::move(tree), std::move(names), path, options);
+  if (names.empty()) throw FileError(path, "matches no image, expected png, jpg or others");
+  return openImages(std::move(tree), std::move(names), Remarks(), options);
 }
 
 std::unique_ptr<Dataset> openFolder(const std::string& path, const Options& options) {
   std::shared_ptr<const FileTree> tree = FileTree::open(path);
-  const auto hasImages = [](const FileTree& files, const std::string& folder) {
-    const std::vector<std::string>& names = files.files(folder);
-    return std::any_of(names.begin(), names.end(), isImageName);
-  };
-  const Place place = findFolder(*tree, 1, hasImages);
+  Remarks remarks;
+  const Place place = findImageFolder(*tree, remarks);
+  if (!place.is_found) throw FileError(path, "has no images, expected png, jpg or others");
   tree = below(std::move(tree), place.folder);
   std::vector<std::string> names = tree->files("");
   names.erase(std::remove_if(names.begin(), names.end(),
                              [](const std::string& name) { return !isImageName(name); }),
               names.end());
-  return openImages(std::move(tree), std::move(names), path, options);
+  return openImages(std::move(tree), std::move(names), std::move(remarks), options);
 }
 
 // --- videos ---
@@ -142,15 +145,35 @@ std::unique_ptr<Dataset> openFolder(const std::string& path, const Options& opti
 class Video {
  public:
   Video(std::string path, int every) : path_(std::move(path)), every_(every) {
-    if (capture_.open(path_, backend())) return;
+    if (open()) return;
     throw FileError(path_, "cannot be opened as a video, nor as anything else that OpenCV reads");
   }
 
   double get(cv::VideoCaptureProperties property) const { return capture_.get(property); }
 
-  Image load(std::size_t frame) {
+  /// @param is_last  whether the video says that there is none after it
+  Image load(std::size_t frame, bool is_last) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const std::size_t wanted = frame * static_cast<std::size_t>(every_);
+    try {
+      Image image = read(frame * static_cast<std::size_t>(every_));
+      if (is_last && every_ == 1) sayEnd();
+      return image;
+    } catch (const cv::Exception& error) {
+      throw FileError(path_, "frame " + std::to_string(frame) + " cannot be decoded: " + error.err);
+    }
+  }
+
+ private:
+  static constexpr std::size_t kMostSkipped = 100;
+
+  // Other backends complain on stderr of files that are not theirs.
+  bool open() {
+    const bool has_ffmpeg = cv::videoio_registry::hasBackend(cv::CAP_FFMPEG);
+    next_ = 0;
+    return capture_.open(path_, has_ffmpeg ? cv::CAP_FFMPEG : cv::CAP_ANY);
+  }
+
+  Image read(std::size_t wanted) {
     if (wanted < next_ || wanted > next_ + kMostSkipped) jumpTo(wanted);
     for (; next_ < wanted; ++next_) {
       if (!capture_.grab()) fail(next_);
@@ -158,26 +181,34 @@ class Video {
     cv::Mat pixels;
     if (!capture_.read(pixels)) fail(next_);
     ++next_;
-    return fromOpenCv(pixels.clone());  // the decoder writes its own memory again
+    Image image = fromOpenCv(pixels.clone());  // the decoder writes its own memory again
+    if (!has_shape_) shape_ = shapeOf(image);
+    has_shape_ = true;
+    checkShape(image, shape_, path_);
+    return image;
   }
 
- private:
-  static constexpr std::size_t kMostSkipped = 100;
-
-  // Others complain on stderr of files that are not theirs.
-  static int backend() {
-    const bool has_ffmpeg = cv::videoio_registry::hasBackend(cv::CAP_FFMPEG);
-    return has_ffmpeg ? cv::CAP_FFMPEG : cv::CAP_ANY;
-  }
-
+  // Where it does not land on the frame, it goes there from the beginning.
   void jumpTo(std::size_t frame) {
-    if (!capture_.set(cv::CAP_PROP_POS_FRAMES, double(frame))) {
-      capture_.open(path_, backend());  // from its beginning
-      next_ = 0;
-      return;
+    const bool is_there =
+        capture_.set(cv::CAP_PROP_POS_FRAMES, double(frame)) &&
+        std::llround(capture_.get(cv::CAP_PROP_POS_FRAMES)) == static_cast<long long>(frame);
+    if (is_there) {
+      next_ = frame;
+    } else if (!open()) {
+      fail(frame);
     }
-    next_ = frame;
   }
+
+  void sayEnd() {
+    if (is_end_known_) return;
+    is_end_known_ = true;
+    if (!capture_.grab()) return;
+    ++next_;
+    detail::logParts(LogLevel::warning, __FILE__, __LINE__,
+                     {path_.c_str(), " goes on after the number of frames that it states"});
+  }
+
   [[noreturn]] void fail(std::size_t frame) {
     next_ = frame + 1;
     throw FileError(path_, "frame " + std::to_string(frame) +
@@ -189,7 +220,18 @@ class Video {
   std::mutex mutex_;
   cv::VideoCapture capture_;
   std::size_t next_ = 0;
+  ImageShape shape_;
+  bool has_shape_ = false, is_end_known_ = false;
 };
+
+// How many frames it states; a frame takes a byte at least.
+std::size_t frameCount(const Video& video, const std::string& path) {
+  const double count = video.get(cv::CAP_PROP_FRAME_COUNT);
+  std::error_code unknown;
+  const double bytes = double(std::filesystem::file_size(path, unknown));
+  if (count >= 1 && count <= kMostFrames && (unknown || count <= bytes)) return std::size_t(count);
+  throw FileError(path, "does not say how many frames it has, or too many, expected a video file");
+}
 
 std::unique_ptr<Dataset> openVideo(const std::string& path, const Options& options) {
   Sequence sequence;
@@ -207,17 +249,17 @@ std::unique_ptr<Dataset> openVideo(const std::string& path, const Options& optio
     rate = kUsualRate;
     sequence.remarks.say("the video does not say how many frames it has a second: taken as 30");
   }
-  const double count = video->get(cv::CAP_PROP_FRAME_COUNT);
-  if (!(count >= 1 && count <= kMostFrames)) {
-    throw FileError(path, "does not say how many frames it has, expected a video file");
-  }
+  const std::size_t count = frameCount(*video, path);
   checkCamera(sequence.info.sensors.cameras[0], int(video->get(cv::CAP_PROP_FRAME_WIDTH)),
               int(video->get(cv::CAP_PROP_FRAME_HEIGHT)), path);
   sequence.info.sensors.cameras[0].kind = ImageKind::bgr;
-  for (std::size_t i = 0; i < std::size_t(count); i += std::size_t(options.every)) {
+  for (std::size_t i = 0; i < count; i += static_cast<std::size_t>(options.every)) {
     sequence.stamps.push_back(stampAt(i, rate));
   }
-  sequence.load = [video](std::size_t frame, std::size_t) { return video->load(frame); };
+  const std::size_t last = sequence.stamps.size() - 1;
+  sequence.load = [video, last](std::size_t frame, std::size_t) {
+    return video->load(frame, frame == last);
+  };
   sequence.in_order = true;
   return deliver(std::move(sequence), prefetchOf(options.parameters));
 }
@@ -292,9 +334,9 @@ bool isDevice(const std::string& path) {
 
 std::unique_ptr<Dataset> openCvMono(const std::string& path, const Svar& parameters) {
   const Options options = optionsOf(parameters);
+  if (isFolderOrArchive(path)) return openFolder(path, options);  // be its name a number
   if (isDevice(path)) return openDevice(path, options);
   if (nameIn(path).find_first_of("*?") != std::string::npos) return openPattern(path, options);
-  if (isFolderOrArchive(path)) return openFolder(path, options);
   return openVideo(path, options);
 }
 

@@ -184,7 +184,7 @@ class DroneMap {
 
   void setCamera() {
     CameraSensor& sensor = sequence_.info.sensors.cameras[0];
-    if (overrideCamera(parameters_, sensor)) return;
+    if (overrideCamera(parameters_, sensor, sequence_.remarks)) return;
     const auto named = settings_.find("Video.CameraInName");
     const std::string name =
         (named == settings_.end() ? std::string("Camera") : named->second.value) + ".Paraments";

@@ -7,6 +7,7 @@
 #include <gslam/svar_formats/yaml.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "../reading/camera_words.h"
@@ -105,12 +106,28 @@ class Folder {
     return in.stamp(stampUnitName(unit_), 3 * static_cast<int>(unit_));
   }
 
+  double finite(double number, const std::string& field) const {
+    if (!std::isfinite(number)) fail(field + " has a number that is not finite");
+    return number;
+  }
+
+  // A number from 0 on, as noise densities are.
+  double numberOf(const Svar& object, const std::string& name, const std::string& field) const {
+    const double number = finite(object.get<double>(name), field + name);
+    if (number < 0) fail(field + name + " is below 0");
+    return number;
+  }
+
   // tx ty tz qx qy qz qw, or the rows of a 4 x 4 or 3 x 4 matrix.
   SE3d poseOf(const Svar& value, const std::string& field) const {
     std::vector<double> n;
     try {
       n = value.as<std::vector<double>>();
       if (n.empty()) return SE3d();
+      for (const double number : n) finite(number, field);
+      if (n.size() == 16 && !(n[12] == 0 && n[13] == 0 && n[14] == 0 && n[15] == 1)) {
+        fail(field + " has no 0 0 0 1 at its end, expected a matrix row by row");
+      }
       if (n.size() == 7)
         return SE3d(SO3d::fromQuaternion(n[3], n[4], n[5], n[6]), {{n[0], n[1], n[2]}});
       if (n.size() == 12 || n.size() == 16) {
@@ -129,8 +146,10 @@ class Folder {
     try {
       const auto n = value.as<std::vector<double>>();
       if (n.empty()) return Vec3d{};
-      if (n.size() == 3) return Vec3d{{n[0], n[1], n[2]}};
-    } catch (const Error&) {  // said below
+      if (n.size() == 3) {
+        return Vec3d{{finite(n[0], field), finite(n[1], field), finite(n[2], field)}};
+      }
+    } catch (const SvarError&) {  // said below
     }
     fail(field + " is no point, expected three numbers");
   }
@@ -154,19 +173,25 @@ class Folder {
   }
 
   std::int64_t nanosecondsOf(double seconds) const {
-    if (!(seconds >= 0 && seconds < 3600)) fail("tolerance is not from 0 to 3600 seconds");
+    if (!(seconds >= 0 && seconds <= 1)) fail("tolerance is not from 0 to 1 second");
     return static_cast<std::int64_t>(seconds * 1e9 + 0.5);
   }
 
-  CameraSensor sensorOf(const Svar& camera, const std::string& field, std::size_t i) const {
+  CameraSensor sensorOf(const Svar& camera, const std::string& field, std::size_t i) {
     CameraSensor sensor;
     sensor.name = camera.get<std::string>("name");
     if (sensor.name.empty()) sensor.name = "camera" + std::to_string(i);
-    sensor.rate = camera.get<double>("rate");
+    for (const CameraSensor& other : sequence_.info.sensors.cameras) {
+      if (other.name == sensor.name) fail(field + ".name is '" + sensor.name + "' again");
+    }
+    sensor.rate = numberOf(camera, "rate", field + ".");
+    if (sensor.rate != 0 && !(sensor.rate >= 1e-6 && sensor.rate <= 1e6)) {
+      fail(field + ".rate is not from 1e-6 to 1e6 images a second");
+    }
     const std::string kind = camera.get<std::string>("kind");
     if (kind == "depth") {
       sensor.kind = ImageKind::depth;
-      sensor.depth_scale = camera.get<double>("depth_scale");
+      sensor.depth_scale = numberOf(camera, "depth_scale", field + ".");
       if (!(sensor.depth_scale > 0)) fail(field + ".depth_scale is not above 0");
     } else if (!kind.empty()) {
       fail(field + ".kind is '" + kind + "', expected depth, or nothing for other images");
@@ -180,8 +205,9 @@ class Folder {
       fail(field + "." + error.what());
     }
     if (!file.empty()) {
-      const CameraSensor read = cameraOfFile(tree_->text(file), tree_->nameOf(file),
-                                             camera.get<int>("calibration_camera"));
+      const CameraSensor read =
+          cameraOfFile(tree_->text(file), tree_->nameOf(file),
+                       camera.get<int>("calibration_camera"), sequence_.remarks);
       sensor.camera = read.camera;
       sensor.T_body_camera = read.T_body_camera;
     }
@@ -194,7 +220,7 @@ class Folder {
   // A list of stamps and files, which are beside it; or a folder, whose files have the stamps as
   // names; or a folder with a rate.
   std::vector<ListedImage> imagesOf(const Svar& camera, const std::string& field) {
-    const std::string name = camera.get<std::string>("images");
+    const std::string name = joined("", camera.get<std::string>("images"));
     if (name.empty()) fail(field + ".images is missing, expected a list or a folder");
     std::vector<ListedImage> images;
     if (tree_->has(name)) {
@@ -241,10 +267,10 @@ class Folder {
     SensorRig& rig = sequence_.info.sensors;
     rig.has_imu = true;
     rig.imu.T_body_imu = poseOf(imu["T_body_imu"], "imu.T_body_imu");
-    rig.imu.gyro_noise = imu.get<double>("gyro_noise");
-    rig.imu.accel_noise = imu.get<double>("accel_noise");
-    rig.imu.gyro_bias_walk = imu.get<double>("gyro_bias_walk");
-    rig.imu.accel_bias_walk = imu.get<double>("accel_bias_walk");
+    rig.imu.gyro_noise = numberOf(imu, "gyro_noise", "imu.");
+    rig.imu.accel_noise = numberOf(imu, "accel_noise", "imu.");
+    rig.imu.gyro_bias_walk = numberOf(imu, "gyro_bias_walk", "imu.");
+    rig.imu.accel_bias_walk = numberOf(imu, "accel_bias_walk", "imu.");
     const std::string text = tree_->text(file), name = tree_->nameOf(file);
     detail::FieldReader in(text, name, "stamp, gyro x y z (rad/s), acceleration x y z (m/s^2)");
     while (in.nextLine()) {
@@ -275,8 +301,11 @@ class Folder {
                    altitude = in.number("altitude");
       if (!isPlace(latitude, longitude)) in.fail(at, "is no place, expected degrees");
       GnssSample sample = gnssSample(stamp, geodeticOfDegrees(latitude, longitude, altitude));
-      for (std::size_t i = 0; i < 3 && !in.isLineEnd(); ++i) {
+      const bool has_sigmas = !in.isLineEnd();
+      for (std::size_t i = 0; i < 3 && has_sigmas; ++i) {
+        const char* const sigma_at = in.place();
         const double sigma = in.number("sigma");
+        if (!(sigma > 0)) in.fail(sigma_at, "a sigma is not above 0");
         sample.covariance(i, i) = sigma * sigma;
       }
       in.endLine();

@@ -1,3 +1,4 @@
+#include <gslam/core/detail/shared_library.h>
 #include <gslam/core/parameters.h>
 #include <gslam/datasets/formats.h>
 
@@ -32,7 +33,8 @@ std::unique_ptr<Dataset> openDataset(const std::string& path, const Svar& parame
   const std::string place = format == nullptr ? path : path.substr(colon + 1);
   if (format == nullptr) format = findFormat(formats, datasetFormatOf(path));
   if (format == nullptr) {
-    throw FileError(path, "is no dataset of a known format, or does not exist");
+    const bool is_there = detail::fileKind(path) != detail::FileKind::none;
+    throw FileError(path, is_there ? "is no dataset of a known format" : "does not exist");
   }
   return format->open(place, completeParameters(format->parameters, parameters));
 }

@@ -13,6 +13,7 @@
 #include "../reading/photo_facts.h"
 #include "camera_parameters.h"
 #include "gnss_samples.h"
+#include "natural_order.h"
 
 namespace gslam {
 inline namespace v1 {
@@ -52,8 +53,9 @@ SO3d gimbalRotation(const PhotoFacts& facts) {
 
 class Photos {
  public:
-  Photos(std::shared_ptr<const FileTree> tree, const Svar& parameters)
+  Photos(std::shared_ptr<const FileTree> tree, Remarks remarks, const Svar& parameters)
       : tree_(std::move(tree)), parameters_(parameters) {
+    sequence_.remarks = std::move(remarks);
     DatasetInfo& info = sequence_.info;
     info.name = tree_->baseName();
     info.format = "photos";
@@ -64,17 +66,19 @@ class Photos {
   }
 
   std::unique_ptr<Dataset> open() {
-    for (const std::string& name : tree_->files("")) {
+    std::vector<std::string> names = tree_->files("");
+    std::sort(names.begin(), names.end(), isBeforeNaturally);
+    for (const std::string& name : names) {
       if (isImageName(name)) read(name);
     }
     if (photos_.empty()) throw FileError(tree_->root(), "has no images, expected photos");
     setStamps();
     std::vector<ListedImage> images;
     for (const Photo& photo : photos_) images.push_back(photo.image);
-    std::vector<std::string> names = makeFrames(sequence_, {images}, 0);
+    std::vector<std::string> files = makeFrames(sequence_, {images}, 0);
     addPositions();
     setCamera();
-    loadImageFiles(sequence_, {tree_, std::move(names)});
+    loadImageFiles(sequence_, {tree_, std::move(files)});
     return deliver(std::move(sequence_), prefetchOf(parameters_));
   }
 
@@ -139,7 +143,7 @@ class Photos {
     const auto first = std::find_if(photos_.begin(), photos_.end(),
                                     [](const Photo& photo) { return photo.facts.has_position; });
     if (first == photos_.end()) {
-      sequence_.remarks.say("no photo has a position");
+      sequence_.remarks.say("no photo has a position with an altitude");
       return;
     }
     const EnuFrame enu(first->facts.position);
@@ -147,7 +151,8 @@ class Photos {
     for (std::size_t i = 0; i < photos_.size(); ++i) {
       const Photo& photo = photos_[i];
       if (!photo.facts.has_position) {
-        sequence_.remarks.skip("positions that photos do not have", photo.image.file);
+        sequence_.remarks.skip("positions that lack, have no altitude, or are no fix",
+                               photo.image.file);
         continue;
       }
       sequence_.gnss.push_back(gnssSample(photo.image.stamp, photo.facts.position));
@@ -157,11 +162,10 @@ class Photos {
     }
     sequence_.info.sensors.has_gnss = true;
     sequence_.remarks.say("altitudes are as EXIF has them, above the sea: nothing is corrected");
-    if (has_gimbal) {
-      sequence_.remarks.say(
-          "priors of frames are metres east, north and up of the first photo's position, turned as "
-          "the gimbal says; their covariance is a guess (5 m across, 10 m up, 6 degrees)");
-    }
+    if (!has_gimbal) return;
+    sequence_.remarks.say(
+        "priors of frames are metres east, north and up of the first photo's position, turned as "
+        "the gimbal says; their covariance is a guess (5 m across, 10 m up, 6 degrees)");
   }
 
   static PoseWithCovariance<SE3d> priorOf(const PhotoFacts& facts, const EnuFrame& enu) {
@@ -176,7 +180,7 @@ class Photos {
 
   void setCamera() {
     CameraSensor& sensor = sequence_.info.sensors.cameras[0];
-    if (overrideCamera(parameters_, sensor)) return;
+    if (overrideCamera(parameters_, sensor, sequence_.remarks)) return;
     const double focal = photos_.front().facts.focal_length_35mm;
     if (!(focal > 0)) {
       sequence_.remarks.say("the camera is not calibrated; give one with the parameter 'camera'");
@@ -199,14 +203,11 @@ class Photos {
 };
 
 std::unique_ptr<Dataset> openPhotos(const std::string& path, const Svar& parameters) {
-  const auto hasImages = [](const FileTree& tree, const std::string& folder) {
-    const std::vector<std::string>& files = tree.files(folder);
-    return std::any_of(files.begin(), files.end(), isImageName);
-  };
   std::shared_ptr<const FileTree> tree = FileTree::open(path);
-  const Place place = findFolder(*tree, 1, hasImages);
+  Remarks remarks;
+  const Place place = findImageFolder(*tree, remarks);
   if (!place.is_found) throw FileError(path, "has no images, expected photos");
-  return Photos(below(std::move(tree), place.folder), parameters).open();
+  return Photos(below(std::move(tree), place.folder), std::move(remarks), parameters).open();
 }
 
 }  // namespace

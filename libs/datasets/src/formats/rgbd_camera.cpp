@@ -40,9 +40,9 @@ Camera cameraOfText(const std::string& text, const std::string& source, int widt
   }
 }
 
-Camera wantedCamera(const Svar& parameters) {
+Camera wantedCamera(const Svar& parameters, Remarks& remarks) {
   CameraSensor sensor;
-  return overrideCamera(parameters, sensor) ? sensor.camera : Camera();
+  return overrideCamera(parameters, sensor, remarks) ? sensor.camera : Camera();
 }
 
 CameraSensor depthOf(const CameraSensor& colour, const FileTree& tree, const std::string& file,

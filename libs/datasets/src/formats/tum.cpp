@@ -126,7 +126,7 @@ class TumReader {
   }
 
   Camera calibrationFor(const ImageShape& shape) {
-    const Camera given = wantedCamera(parameters_);
+    const Camera given = wantedCamera(parameters_, sequence_.remarks);
     const std::string recording = recordingOf(tree_->text(below("rgb.txt")));
     const Published* published = publishedFor(sequence_.info.name);
     if (published == nullptr) published = publishedFor(recording);

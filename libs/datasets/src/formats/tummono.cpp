@@ -117,7 +117,7 @@ class TumMono {
     sensor.name = "camera";
     CalibrationOptions options;
     options.format = "dso";
-    if (overrideCamera(parameters_, sensor)) {
+    if (overrideCamera(parameters_, sensor, sequence_.remarks)) {
       // as the user wants it
     } else if (tree_->has("camera.txt")) {
       const Calibration found = calibrationIn(*tree_, "camera.txt", sequence_.remarks, options);

@@ -3,6 +3,7 @@
 #include <gslam/base/error.h>
 #include <gslam/core/opencv.h>
 
+#include <new>
 #include <opencv2/imgcodecs.hpp>
 
 #include "whole_image.h"
@@ -10,21 +11,49 @@
 namespace gslam {
 inline namespace v1 {
 namespace reading {
-Image decodeImage(const std::vector<std::uint8_t>& bytes, const std::string& name) {
+namespace {
+
+constexpr std::uint64_t kMostPixels = std::uint64_t(1) << 28;
+
+// A few bytes can ask for gigabytes.
+void checkHead(const std::vector<std::uint8_t>& bytes, const std::string& name,
+               const ImageShape* expected) {
+  std::uint32_t width = 0, height = 0;
+  if (!readImageSize(bytes, width, height)) return;
+  const std::string size = std::to_string(width) + " x " + std::to_string(height);
+  if (std::uint64_t(width) * height > kMostPixels) {
+    throw FileError(name, "has " + size + " pixels, expected at most 2^28");
+  }
+  if (expected == nullptr) return;
+  if (std::int64_t(width) == expected->width && std::int64_t(height) == expected->height) return;
+  throw FileError(name, "is " + size + ", but the camera's first image is " +
+                            std::to_string(expected->width) + " x " +
+                            std::to_string(expected->height));
+}
+
+}  // namespace
+
+Image decodeImage(const std::vector<std::uint8_t>& bytes, const std::string& name,
+                  const ImageShape* expected) {
   if (bytes.empty()) throw FileError(name, "is empty, expected an image");
   if (!isWholeImage(bytes)) throw FileError(name, "ends early, expected a whole image");
+  checkHead(bytes, name, expected);
   cv::Mat pixels;
   try {
     pixels = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception& error) {
     throw FileError(name, std::string("cannot be decoded as an image: ") + error.err);
+  } catch (const std::bad_alloc&) {
+    throw FileError(name, "is too large for the memory that there is");
   }
   if (pixels.empty()) throw FileError(name, "cannot be decoded, expected an image");
-  return fromOpenCv(pixels);
+  Image image = fromOpenCv(pixels);
+  if (expected != nullptr) checkShape(image, *expected, name);
+  return image;
 }
 
-Image readImage(const FileTree& tree, const std::string& file) {
-  return decodeImage(tree.read(file), tree.nameOf(file));
+Image readImage(const FileTree& tree, const std::string& file, const ImageShape* expected) {
+  return decodeImage(tree.read(file), tree.nameOf(file), expected);
 }
 
 ImageKind kindOf(const Image& image, const std::string& name) {

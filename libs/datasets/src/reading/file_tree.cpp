@@ -1,10 +1,10 @@
 #include "file_tree.h"
 
+#include <dirent.h>
 #include <gslam/base/error.h>
 #include <gslam/core/detail/shared_library.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
@@ -31,29 +31,45 @@ std::string lowered(std::string text) {
   return text;
 }
 
+bool isTidy(const std::string& path) {
+  return path.find("//") == std::string::npos && path.find("/.") == std::string::npos &&
+         (path.empty() || (path[0] != '.' && (path.size() == 1 || path.back() != '/')));
+}
+
+// As std::filesystem::path::lexically_normal() does, without '/' at the end.
+std::string tidied(const std::string& path) {
+  if (isTidy(path)) return path;
+  std::string tidy = std::filesystem::path(path).lexically_normal().string();
+  if (tidy.size() > 1 && tidy.back() == '/') tidy.pop_back();
+  return tidy == "." ? "" : tidy;
+}
+
 struct CloseFile {
   void operator()(std::FILE* file) const noexcept { std::fclose(file); }
 };
 
+// Devices and pipes have no end.
 std::vector<std::uint8_t> readFile(const std::string& path, std::size_t most) {
+  const detail::FileKind kind = detail::fileKind(path);
+  if (kind == detail::FileKind::folder || kind == detail::FileKind::other) {
+    throw FileError(path, "is no file, expected one");
+  }
   const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
   if (file == nullptr) throw FileError(path, "cannot be opened", errno);
-  std::error_code unknown;
-  const std::uintmax_t size = std::filesystem::file_size(path, unknown);
-  std::vector<std::uint8_t> bytes(
-      unknown ? 0 : static_cast<std::size_t>(std::min<std::uintmax_t>(size, most)));
+  std::error_code problem;
+  const std::uint64_t size = std::filesystem::file_size(path, problem);
+  if (problem) throw FileError(path, "cannot be read", problem.value());
+  const std::uint64_t wanted = std::min<std::uint64_t>(size, most);
+  if (wanted > kMostFileBytes) throw FileError(path, "is larger than 1 GiB, expected less");
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(wanted));
   bytes.resize(std::fread(bytes.data(), 1, bytes.size(), file.get()));
-  // What has no size, or grew.
-  std::array<std::uint8_t, 4096> more;
-  while (bytes.size() < most) {
-    const std::size_t wanted = std::min(more.size(), most - bytes.size());
-    const std::size_t count = std::fread(more.data(), 1, wanted, file.get());
-    if (count == 0) break;
-    bytes.insert(bytes.end(), more.data(), more.data() + count);
-  }
   if (std::ferror(file.get()) != 0) throw FileError(path, "cannot be read", errno);
   return bytes;
 }
+
+struct CloseFolder {
+  void operator()(DIR* folder) const noexcept { ::closedir(folder); }
+};
 
 class FolderTree final : public FileTree {
  public:
@@ -82,24 +98,29 @@ class FolderTree final : public FileTree {
     return listings_.emplace(folder, std::move(listing)).first->second;
   }
 
-  // Names that begin with a dot are what systems leave behind, such as ._frame.png.
   static Listing look(const std::string& path) {
     Listing listing;
-    std::error_code problem;
-    std::filesystem::directory_iterator entry(path, problem);
-    for (; !problem && entry != std::filesystem::directory_iterator(); entry.increment(problem)) {
-      std::string name = entry->path().filename().string();
-      if (name[0] == '.') continue;
-      std::error_code gone;
-      if (entry->is_directory(gone)) {
-        listing.folders.push_back(std::move(name));
-      } else if (!gone) {
-        listing.files.push_back(std::move(name));
-      }
+    const std::unique_ptr<DIR, CloseFolder> folder(::opendir(path.c_str()));
+    const bool is_none = folder == nullptr && (errno == ENOENT || errno == ENOTDIR);
+    if (is_none) return listing;
+    if (folder == nullptr) throw FileError(path, "cannot be listed", errno);
+    errno = 0;
+    while (const dirent* const entry = ::readdir(folder.get())) {
+      if (entry->d_name[0] == '.') continue;
+      (isFolder(path, *entry) ? listing.folders : listing.files).emplace_back(entry->d_name);
+      errno = 0;
     }
+    if (errno != 0) throw FileError(path, "cannot be listed", errno);
     std::sort(listing.files.begin(), listing.files.end());
     std::sort(listing.folders.begin(), listing.folders.end());
     return listing;
+  }
+
+  // A link that leads nowhere is a file: who reads it is told.
+  static bool isFolder(const std::string& path, const dirent& entry) {
+    if (entry.d_type == DT_DIR) return true;
+    if (entry.d_type == DT_REG) return false;
+    return detail::fileKind(path + "/" + entry.d_name) == detail::FileKind::folder;
   }
 
   mutable std::mutex mutex_;  // guards the map; what is in it stays as it is
@@ -185,8 +206,8 @@ std::shared_ptr<const FileTree> below(std::shared_ptr<const FileTree> tree,
 }
 
 std::string joined(const std::string& a, const std::string& b) {
-  if (a.empty() || b.empty()) return a + b;
-  return a.back() == '/' ? a + b : a + "/" + b;
+  if (a.empty() || b.empty()) return tidied(a + b);
+  return tidied(a + "/" + b);
 }
 
 std::string folderOf(const std::string& path) {

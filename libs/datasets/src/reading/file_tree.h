@@ -14,7 +14,8 @@ inline namespace v1 {
 namespace reading {
 
 /// Files below a root. Paths are relative to it, with '/' between names: "cam0/data.csv"; "" is the
-/// root itself, and a path of a folder has no '/' at its end. Threads may share one.
+/// root itself. They are tidy, as joined() makes them. Names that begin with a dot, which systems
+/// leave behind, are not there. Threads may share one.
 ///
 /// Each folder is listed once, at the first question about it: tens of thousands of has() cost one
 /// look into the folder.
@@ -26,6 +27,7 @@ class FileTree {
   virtual ~FileTree() = default;
 
   /// Names of the files in a folder, sorted by bytes; none where there is no such folder.
+  /// @throws FileError when a folder cannot be listed
   virtual const std::vector<std::string>& files(const std::string& folder) const = 0;
   /// Names of the folders in a folder, sorted by bytes; none where there is no such folder.
   virtual const std::vector<std::string>& folders(const std::string& folder) const = 0;
@@ -34,7 +36,7 @@ class FileTree {
   bool hasFolder(const std::string& folder) const;
 
   /// The bytes of a file, at most so many of its beginning.
-  /// @throws FileError that names it when it cannot be read
+  /// @throws FileError that names it when it cannot be read, is no file, or has more than 1 GiB
   virtual std::vector<std::uint8_t> read(
       const std::string& file,
       std::size_t most = std::numeric_limits<std::size_t>::max()) const = 0;
@@ -60,7 +62,11 @@ class FileTree {
 std::shared_ptr<const FileTree> below(std::shared_ptr<const FileTree> tree,
                                       const std::string& folder);
 
-/// a + "/" + b; b where a is empty.
+/// Most bytes of a file.
+constexpr std::uint64_t kMostFileBytes = std::uint64_t(1) << 30;
+
+/// a + "/" + b, tidied: without "." and "..", as far as names stand before these, and with one '/'
+/// between names and none at the end.
 std::string joined(const std::string& a, const std::string& b);
 
 /// @{

@@ -127,7 +127,8 @@ std::vector<std::string> makeFrames(Sequence& sequence,
   }
   if (!names.empty()) return names;
   throw Error("dataset '" + sequence.info.name +
-              "' has no frame with an image of each camera within " + milliseconds(tolerance));
+              "' has no frame with an image of each camera within " + milliseconds(tolerance) +
+              sequence.remarks.asReason());
 }
 
 }  // namespace reading

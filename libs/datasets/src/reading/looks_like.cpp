@@ -111,34 +111,50 @@ bool isFolder(Files tree, Folder folder) {
   return tree.has(joined(folder, "dataset.yaml"));
 }
 
-bool isPhotos(Files tree, Folder folder) {
-  const std::string* const image = firstImage(tree, folder);
-  return image != nullptr && hasPosition(tree, joined(folder, *image));
-}
-
 bool isImages(Files tree, Folder folder) {
   return firstImage(tree, folder) != nullptr;
 }
 
+// The first, the last or one between: a receiver has no position at first.
+bool isPhotos(Files tree, Folder folder) {
+  std::vector<std::string> images;
+  for (const std::string& name : tree.files(folder)) {
+    if (isImageName(name)) images.push_back(joined(folder, name));
+  }
+  if (images.empty()) return false;
+  return hasPosition(tree, images.front()) || hasPosition(tree, images.back()) ||
+         hasPosition(tree, images[images.size() / 2]);
+}
+
 struct Look {
   const char* format;
-  int depth;  // folders below the one that the user names
+  int depth;  // most folders below the one that the user names
   bool (*is_it)(Files tree, Folder folder);
 };
 
-// Those that ask for more come first: what is left has only images.
-const Look kLooks[] = {
-    {"tumvi", 1, isTumVi},         {"euroc", 1, isAsl},         {"kittiraw", 2, isKittiRaw},
-    {"kitti", 3, isKittiSequence}, {"icl", 1, isIcl},           {"tum", 1, isTum},
-    {"tummono", 1, isTumMono},     {"dronemap", 1, isDroneMap}, {"7scenes", 1, isSevenScenes},
-    {"strecha", 1, isStrecha},     {"folder", 1, isFolder},     {"photos", 1, isPhotos},
-    {"cvmono", 1, isImages}};
+// Those that ask for more come first. What is nearer to the root wins over what is deeper.
+const Look kLooks[] = {{"folder", 1, isFolder},
+                       {"tumvi", 1, isTumVi},
+                       {"euroc", 1, isAsl},
+                       {"kittiraw", 2, isKittiRaw},
+                       {"kitti", 3, isKittiSequence},
+                       {"icl", 1, isIcl},
+                       {"tum", 1, isTum},
+                       {"tummono", 1, isTumMono},
+                       {"dronemap", 1, isDroneMap},
+                       {"7scenes", 1, isSevenScenes},
+                       {"strecha", 1, isStrecha}};
 
 std::string formatOfTree(Files tree) {
-  for (const Look& look : kLooks) {
-    if (findFolder(tree, look.depth, look.is_it).is_found) return look.format;
+  for (int depth = 0; depth <= 3; ++depth) {
+    for (const Look& look : kLooks) {
+      if (depth <= look.depth && findFolder(tree, depth, look.is_it).is_found) return look.format;
+    }
   }
-  return "";
+  // What is left has only images.
+  const Place images = findFolder(tree, 1, isImages);
+  if (!images.is_found) return "";
+  return isPhotos(tree, images.folder) ? "photos" : "cvmono";
 }
 
 bool hasEnding(const std::string& path, const std::vector<std::string>& endings) {
@@ -160,6 +176,25 @@ std::string formatOfFile(const std::string& path) {
 }
 
 }  // namespace
+
+Place findImageFolder(const FileTree& tree, Remarks& remarks) {
+  Place place;
+  std::string names;
+  findFolder(tree, 1, [&](const FileTree& files, const std::string& folder) {
+    if (!isImages(files, folder)) return false;
+    if (!place.is_found) {
+      place = {true, folder};
+    } else {
+      names += (names.empty() ? "" : ", ") + folder;
+    }
+    return false;
+  });
+  if (!names.empty()) {
+    remarks.say("only the images of '" + tree.nameOf(place.folder) + "' are read, not those of " +
+                names + ": name one of these to read it");
+  }
+  return place;
+}
 
 Place findFolder(const FileTree& tree, int depth,
                  const std::function<bool(const FileTree&, const std::string&)>& is_it) {
@@ -191,8 +226,8 @@ std::string datasetFormatOf(const std::string& path) {
   using namespace reading;  // NOLINT(google-build-using-namespace): one function
   try {
     if (isFolderOrArchive(path)) return formatOfTree(*FileTree::open(path));
-  } catch (const Error&) {  // a broken archive: whoever is asked to open it says why
-    return "";
+  } catch (const Error&) {
+    return "cvmono";  // a broken archive, a forbidden folder: opening it will say why
   }
   return formatOfFile(path);
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "file_tree.h"
+#include "remarks.h"
 
 namespace gslam {
 inline namespace v1 {
@@ -22,6 +23,10 @@ struct Place {
 /// first, then by depth and name. Looks into at most 200 folders.
 Place findFolder(const FileTree& tree, int depth,
                  const std::function<bool(const FileTree&, const std::string& folder)>& is_it);
+
+/// The folder whose images are to be read where nothing but images is there: the root, or the first
+/// folder in it that has any. Others are said.
+Place findImageFolder(const FileTree& tree, Remarks& remarks);
 
 /// Whether FileTree::open() takes a path: it is a folder, or ends in ".zip".
 bool isFolderOrArchive(const std::string& path);

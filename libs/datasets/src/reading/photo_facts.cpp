@@ -51,21 +51,31 @@ bool readAngle(const Exiv2::ExifData& exif, const char* key, const char* side_ke
   return std::isfinite(degrees) && std::fabs(degrees) <= 180;
 }
 
+bool readAltitude(const Exiv2::ExifData& exif, double& altitude) {
+  const Exiv2::Exifdatum* const datum = find(exif, "Exif.GPSInfo.GPSAltitude");
+  if (datum == nullptr) return false;
+  altitude = fraction(*datum);
+  const Exiv2::Exifdatum* const side = find(exif, "Exif.GPSInfo.GPSAltitudeRef");
+  if (side != nullptr && side->toLong() == 1) altitude = -altitude;
+  return std::isfinite(altitude);
+}
+
+// The status V: measuring is interrupted.
+bool isInterrupted(const Exiv2::ExifData& exif) {
+  const Exiv2::Exifdatum* const status = find(exif, "Exif.GPSInfo.GPSStatus");
+  return status != nullptr && status->toString() == "V";
+}
+
+// Drones write zeros before they have a fix.
 void readPosition(const Exiv2::ExifData& exif, PhotoFacts& facts) {
   double latitude = 0, longitude = 0, altitude = 0;
   facts.has_position =
       readAngle(exif, "Exif.GPSInfo.GPSLatitude", "Exif.GPSInfo.GPSLatitudeRef", 'S', latitude) &&
       readAngle(exif, "Exif.GPSInfo.GPSLongitude", "Exif.GPSInfo.GPSLongitudeRef", 'W',
                 longitude) &&
-      std::fabs(latitude) <= 90;
-  if (!facts.has_position) return;
-  if (const Exiv2::Exifdatum* const datum = find(exif, "Exif.GPSInfo.GPSAltitude")) {
-    altitude = fraction(*datum);
-    facts.has_altitude = std::isfinite(altitude);
-    const Exiv2::Exifdatum* const side = find(exif, "Exif.GPSInfo.GPSAltitudeRef");
-    if (side != nullptr && side->toLong() == 1) altitude = -altitude;
-  }
-  facts.position = geodeticOfDegrees(latitude, longitude, facts.has_altitude ? altitude : 0);
+      readAltitude(exif, altitude) && std::fabs(latitude) <= 90 &&
+      !(latitude == 0 && longitude == 0) && !isInterrupted(exif);
+  if (facts.has_position) facts.position = geodeticOfDegrees(latitude, longitude, altitude);
 }
 
 // Days from 1970 to a date of the Gregorian calendar (H. Hinnant, "chrono-compatible low-level date

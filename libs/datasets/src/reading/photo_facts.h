@@ -16,10 +16,8 @@ namespace reading {
 
 /// What is not known is 0, or has a flag that is false.
 struct PhotoFacts {
-  bool has_position = false;
-  bool has_altitude = false;  ///< else that of `position` is 0
-  bool is_above_sea = true;   ///< the altitude; else it is above the ellipsoid
-  Geodetic position{};
+  bool has_position = false;      ///< with an altitude, and a fix of the receiver
+  Geodetic position{};            ///< its altitude is above the sea, as EXIF has it
   std::int64_t gps_stamp = 0;     ///< nanoseconds, UTC since 1970, of the receiver
   std::int64_t camera_stamp = 0;  ///< nanoseconds since 1970 by the camera's clock, whose zone is
                                   ///< not known

@@ -18,7 +18,8 @@ namespace reading {
 
 /// The threads begin at the first next(). At most `ahead` frames are loaded, or being loaded, and
 /// not taken; after a seek() it is one at first, and twice as many with each frame that is taken,
-/// so that jumping about loads little in vain. One thread at a time may use it.
+/// so that jumping about loads little in vain (what threads load when seek() is called comes on
+/// top of it). One thread at a time may use it.
 class Prefetcher {
  public:
   using Images = std::vector<CameraImage>;

@@ -60,6 +60,12 @@ std::vector<std::string> Remarks::sentences() const {
   return all;
 }
 
+std::string Remarks::asReason() const {
+  std::string text;
+  for (const std::string& sentence : sentences()) text += "\n  " + sentence;
+  return text;
+}
+
 }  // namespace reading
 }  // namespace v1
 }  // namespace gslam

@@ -16,7 +16,7 @@ namespace reading {
 ///
 ///     remarks.skip("images that do not exist", "cam1/data/1403.png (cam1/data.csv:12)");
 ///
-/// becomes "3 images that do not exist were skipped: a, b, c"; of many the first and last are
+/// becomes "skipped 3 images that do not exist: a, b, c"; of many the first and last are
 /// named.
 class GSLAM_DATASETS_EXPORT Remarks {  // for packages inside of this library's folder
  public:
@@ -30,6 +30,8 @@ class GSLAM_DATASETS_EXPORT Remarks {  // for packages inside of this library's 
   std::size_t skipped(const std::string& things) const noexcept;
   /// All sentences, in the order of the first of each.
   std::vector<std::string> sentences() const;
+  /// The same as lines to put behind an error whose reason they may be; each begins with "\n  ".
+  std::string asReason() const;
 
  private:
   struct Entry {

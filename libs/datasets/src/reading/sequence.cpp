@@ -90,13 +90,37 @@ void sayOutside(const Sequence& sequence, Remarks& remarks) {
   later(sequence.gnss, "satellite positions");
 }
 
+// So that differences are no larger than a number can be.
+void checkSpan(std::int64_t first, std::int64_t last, const std::string& what) {
+  const auto span = static_cast<std::uint64_t>(last) - static_cast<std::uint64_t>(first);
+  if (span <= std::uint64_t(1) << 61) return;
+  throw Error(what + " are from " + secondsText(first) + " to " + secondsText(last) +
+              " s, expected less than 70 years");
+}
+
+template <class Samples>
+void checkSamples(const Samples& samples, const Sequence& sequence, const std::string& what) {
+  if (samples.empty()) return;
+  checkSpan(std::min(samples.front().stamp, sequence.stamps.front()),
+            std::max(samples.back().stamp, sequence.stamps.back()), what);
+}
+
+void checkStamps(const Sequence& sequence) {
+  const std::vector<std::int64_t>& stamps = sequence.stamps;
+  const std::string name = "dataset '" + sequence.info.name + "'";
+  if (stamps.empty()) throw Error(name + " has no frame" + sequence.remarks.asReason());
+  if (std::adjacent_find(stamps.begin(), stamps.end(), std::greater_equal<>()) != stamps.end()) {
+    throw Error("the frames of " + name + " are not in the order of their stamps");
+  }
+  checkSpan(stamps.front(), stamps.back(), "the frames of " + name);
+  checkSamples(sequence.imu, sequence, "frames and inertial samples of " + name);
+  checkSamples(sequence.gnss, sequence, "frames and satellite positions of " + name);
+}
+
 void complete(Sequence& sequence) {
+  checkStamps(sequence);
   const std::vector<std::int64_t>& stamps = sequence.stamps;
   DatasetInfo& info = sequence.info;
-  if (stamps.empty()) throw Error("dataset '" + info.name + "' has no frame");
-  if (std::adjacent_find(stamps.begin(), stamps.end(), std::greater_equal<>()) != stamps.end()) {
-    throw Error("the frames of dataset '" + info.name + "' are not in the order of their stamps");
-  }
   const std::vector<std::int64_t> inertial = stampsOf(sequence.imu);
   const double rate = rateOf(usualStep(stamps));
   for (CameraSensor& camera : info.sensors.cameras) {
@@ -136,10 +160,12 @@ class SequenceDataset final : public Dataset {
     const std::size_t index = images_.position();
     if (index == sequence_.stamps.size()) return nullptr;
     const auto frame = std::make_shared<Frame>();
-    frame->images = images_.next();
+    frame->images = images_.next();  // may throw: the samples go out with the next one then
     frame->id = index;
     frame->stamp = sequence_.stamps[index];
-    addSamples(index, *frame);
+    addSamples(*frame);
+    if (!sequence_.priors.empty()) addPrior(sequence_.priors[index], *frame);
+    samples_from_ = index + 1;
     return frame;
   }
 
@@ -149,17 +175,21 @@ class SequenceDataset final : public Dataset {
                                        std::to_string(sequence_.stamps.size()) + " frames");
     }
     images_.seek(index);
+    samples_from_ = index;
   }
 
  private:
-  void addSamples(std::size_t index, Frame& frame) const {
-    const std::int64_t before = index == 0 ? 0 : sequence_.stamps[index - 1];
-    frame.imu = samplesBetween(sequence_.imu, before, index > 0, frame.stamp);
-    frame.gnss = samplesBetween(sequence_.gnss, before, index > 0, frame.stamp);
+  void addSamples(Frame& frame) const {
+    const bool has_before = samples_from_ > 0;
+    const std::int64_t before = has_before ? sequence_.stamps[samples_from_ - 1] : 0;
+    frame.imu = samplesBetween(sequence_.imu, before, has_before, frame.stamp);
+    frame.gnss = samplesBetween(sequence_.gnss, before, has_before, frame.stamp);
     frame.imu_calibration = sequence_.info.sensors.imu;
-    if (sequence_.priors.empty()) return;
-    frame.has_prior = sequence_.priors[index].is_known;
-    if (frame.has_prior) frame.prior = sequence_.priors[index].pose;
+  }
+
+  static void addPrior(const Prior& prior, Frame& frame) {
+    frame.has_prior = prior.is_known;
+    if (prior.is_known) frame.prior = prior.pose;
   }
 
   std::vector<CameraImage> load(std::size_t frame) const {
@@ -185,7 +215,8 @@ class SequenceDataset final : public Dataset {
   }
 
   const Sequence sequence_;
-  Prefetcher images_;  // its threads call load()
+  std::size_t samples_from_ = 0;  // the first frame whose samples did not go out
+  Prefetcher images_;             // its threads call load()
 };
 
 template <class Sample>
@@ -209,6 +240,13 @@ void checkSize(const CameraSensor& camera, const Image& image, const std::string
   throw FileError(name, "is " + image.text() + ", but the calibration of camera '" + camera.name +
                             "' is for " + std::to_string(camera.camera.width()) + " x " +
                             std::to_string(camera.camera.height()) + " pixels");
+}
+
+void checkDepth(const Image& image, const std::string& name) {
+  const bool is_depth =
+      image.channels() == 1 && (image.type() == PixelType::u16 || image.type() == PixelType::f32);
+  if (is_depth) return;
+  throw FileError(name, "is " + image.text() + ", expected depth: one channel of u16 or f32");
 }
 
 }  // namespace
@@ -248,15 +286,17 @@ void loadImageFiles(Sequence& sequence, ImageFiles files) {
     const std::string name = files.tree->nameOf(files.names[first]);
     checkSize(cameras[camera], image, name);
     shapes[camera] = shapeOf(image);
-    if (cameras[camera].kind != ImageKind::depth) cameras[camera].kind = kindOf(image, name);
+    if (cameras[camera].kind == ImageKind::depth) {
+      checkDepth(image, name);
+    } else {
+      cameras[camera].kind = kindOf(image, name);
+    }
   }
   const auto shared = std::make_shared<const ImageFiles>(std::move(files));
   sequence.load = [shared, shapes, count](std::size_t frame, std::size_t camera) {
     const std::string& file = shared->names[frame * count + camera];
     if (file.empty()) return Image();
-    Image image = readImage(*shared->tree, file);
-    checkShape(image, shapes[camera], shared->tree->nameOf(file));
-    return image;
+    return readImage(*shared->tree, file, &shapes[camera]);
   };
 }
 

@@ -63,14 +63,15 @@ GSLAM_DATASETS_EXPORT Svar commonParameters();
 GSLAM_DATASETS_EXPORT Prefetch prefetchOf(const Svar& parameters);
 
 /// Delivers a sequence: frames go out in order, with the inertial and satellite samples after the
-/// frame before and up to the frame's stamp (the first frame has all up to its own). Gaps between
-/// frames, and samples that no frame has, become remarks.
-/// @throws Error when there is no frame
+/// frame before and up to the frame's stamp (the first frame has all up to its own). Those of a
+/// frame that cannot be loaded go out with the one after it. Gaps between frames, and samples that
+/// no frame has, become remarks.
+/// @throws Error when there is no frame, or stamps are not in order or centuries apart
 GSLAM_DATASETS_EXPORT std::unique_ptr<Dataset> deliver(Sequence sequence, const Prefetch& prefetch);
 
 /// Image files for Sequence::load: a name for image [frame * cameras + camera], relative to `tree`;
 /// an empty one where the frame has none. Each camera's images must be of the shape that its first
-/// one has.
+/// one has; those of depth have one channel of u16 or f32.
 struct ImageFiles {
   std::shared_ptr<const FileTree> tree;
   std::vector<std::string> names;

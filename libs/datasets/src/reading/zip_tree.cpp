@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <map>
 #include <mutex>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -15,8 +16,8 @@ inline namespace v1 {
 namespace reading {
 namespace {
 
-constexpr std::uint64_t kMostBytes = std::uint64_t(1) << 30;   // of one file
 constexpr std::uint64_t kFirstBytes = std::uint64_t(1) << 22;  // taken before any was read
+constexpr std::size_t kMostName = 4096, kMostDepth = 64;       // of a path in an archive
 
 struct Discard {
   void operator()(zip_t* archive) const noexcept { zip_discard(archive); }
@@ -35,12 +36,20 @@ Archive openArchive(const std::string& path) {
   throw FileError(path, "cannot be read as a zip archive: " + text);
 }
 
-// As other systems write them, too: a\b, ./a
+// As other systems write them, too: a\b, ./a, /a. Those of folders keep '/' at their end.
 std::string tidyName(const char* name) {
   std::string path = name;
   std::replace(path.begin(), path.end(), '\\', '/');
-  while (path.compare(0, 2, "./") == 0) path.erase(0, 2);
-  return path;
+  const bool is_folder = !path.empty() && path.back() == '/';
+  path = joined("", path);
+  path.erase(0, path.find_first_not_of('/'));
+  return is_folder ? path + "/" : path;
+}
+
+// What systems leave behind: names that begin with a dot, and Apple's folder beside.
+bool isLeftBehind(const std::string& path) {
+  return path.empty() || path[0] == '.' || path.find("/.") != std::string::npos ||
+         path.compare(0, 9, "__MACOSX/") == 0;
 }
 
 class ZipTree final : public FileTree {
@@ -48,14 +57,18 @@ class ZipTree final : public FileTree {
   explicit ZipTree(const std::string& path) : FileTree(path) {
     idle_.push_back(openArchive(path));
     zip_t* const archive = idle_.front().get();
-    const zip_int64_t count = zip_get_num_entries(archive, 0);
-    for (zip_int64_t i = 0; i < count; ++i) {
-      const char* const name = zip_get_name(archive, static_cast<zip_uint64_t>(i), 0);
-      if (name != nullptr) add(tidyName(name), static_cast<zip_uint64_t>(i));
+    const auto count = static_cast<zip_uint64_t>(zip_get_num_entries(archive, 0));
+    for (zip_uint64_t i = 0; i < count; ++i) {
+      const char* const name = zip_get_name(archive, i, 0);
+      if (name != nullptr) add(tidyName(name), i);
     }
     for (auto& one : listings_) {
       sortOnce(one.second.files);
       sortOnce(one.second.folders);
+    }
+    const auto isBefore = [](const Entry& a, const Entry& b) { return a.path < b.path; };
+    if (!std::is_sorted(entries_.begin(), entries_.end(), isBefore)) {
+      std::stable_sort(entries_.begin(), entries_.end(), isBefore);
     }
   }
 
@@ -67,10 +80,14 @@ class ZipTree final : public FileTree {
   }
 
   std::vector<std::uint8_t> read(const std::string& file, std::size_t most) const override {
-    const auto entry = entries_.find(file);
-    if (entry == entries_.end()) throw FileError(nameOf(file), "does not exist");
+    const auto entry =
+        std::lower_bound(entries_.begin(), entries_.end(), file,
+                         [](const Entry& one, const std::string& path) { return one.path < path; });
+    if (entry == entries_.end() || entry->path != file) {
+      throw FileError(nameOf(file), "does not exist");
+    }
     Archive archive = take();
-    std::vector<std::uint8_t> bytes = readEntry(archive.get(), entry->second, most, nameOf(file));
+    std::vector<std::uint8_t> bytes = readEntry(archive.get(), entry->number, most, nameOf(file));
     const std::lock_guard<std::mutex> lock(mutex_);
     idle_.push_back(std::move(archive));
     return bytes;
@@ -80,20 +97,26 @@ class ZipTree final : public FileTree {
   struct Listing {
     std::vector<std::string> files, folders;
   };
+  struct Entry {
+    std::string path;
+    zip_uint64_t number;
+  };
 
-  void add(const std::string& path, zip_uint64_t entry) {
-    const bool is_folder = path.empty() || path.back() == '/';
-    std::string inner = is_folder ? path.substr(0, path.size() - (path.empty() ? 0 : 1)) : path;
-    const std::string first = inner.substr(0, inner.find('/'));
-    const bool is_left_behind = first == "__MACOSX" || nameIn(inner).compare(0, 1, ".") == 0;
-    if (inner.empty() || is_left_behind) return;
-    if (!is_folder) {
-      listings_[folderOf(inner)].files.push_back(nameIn(inner));
-      entries_.emplace(inner, entry);
-      inner = folderOf(inner);
+  void add(const std::string& path, zip_uint64_t number) {
+    if (isLeftBehind(path)) return;
+    const auto depth = static_cast<std::size_t>(std::count(path.begin(), path.end(), '/'));
+    if (path.size() > kMostName || depth > kMostDepth) {
+      throw FileError(root(), "has a name of " + std::to_string(path.size()) + " bytes in " +
+                                  std::to_string(depth) + " folders, expected at most " +
+                                  std::to_string(kMostName) + " in " + std::to_string(kMostDepth));
     }
-    for (; !inner.empty() && known_.insert({inner, true}).second; inner = folderOf(inner)) {
-      listings_[folderOf(inner)].folders.push_back(nameIn(inner));
+    std::string folder = folderOf(path);
+    if (path.back() != '/') {
+      listings_[folder].files.push_back(nameIn(path));
+      entries_.push_back({path, number});
+    }
+    for (; !folder.empty() && known_.insert(folder).second; folder = folderOf(folder)) {
+      listings_[folderOf(folder)].folders.push_back(nameIn(folder));
     }
   }
 
@@ -130,28 +153,31 @@ class ZipTree final : public FileTree {
     zip_stat_t facts;
     zip_stat_init(&facts);
     const bool is_known = zip_stat_index(archive, entry, 0, &facts) == 0;
-    std::uint64_t size = is_known && (facts.valid & ZIP_STAT_SIZE) != 0 ? facts.size : 0;
-    size = std::min({size + 1, kFirstBytes, static_cast<std::uint64_t>(most)});
-    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
+    const std::uint64_t stated = is_known && (facts.valid & ZIP_STAT_SIZE) != 0 ? facts.size : 0;
+    const std::uint64_t limit = std::min<std::uint64_t>(most, kMostFileBytes + 1);
+    std::vector<std::uint8_t> bytes(
+        static_cast<std::size_t>(std::min({stated, kFirstBytes, limit - 1}) + 1));
     std::size_t end = 0;
-    while (end < most) {
-      if (end == bytes.size()) bytes.resize(std::min(end * 2, most));
+    while (end < limit) {
+      if (end == bytes.size()) {
+        bytes.resize(static_cast<std::size_t>(std::min<std::uint64_t>(end * 2, limit)));
+      }
       const zip_int64_t count = zip_fread(file.get(), bytes.data() + end, bytes.size() - end);
       if (count < 0) {
         throw FileError(name, std::string("cannot be read: ") + zip_file_strerror(file.get()));
       }
       end += static_cast<std::size_t>(count);
       if (count == 0) break;
-      if (end > kMostBytes) throw FileError(name, "is larger than 1 GiB, expected less");
     }
+    if (end > kMostFileBytes) throw FileError(name, "is larger than 1 GiB, expected less");
     bytes.resize(end);
     return bytes;
   }
 
-  std::map<std::string, Listing> listings_;
-  std::map<std::string, zip_uint64_t> entries_;
-  std::map<std::string, bool> known_;  // folders
-  mutable std::mutex mutex_;           // guards the handles
+  std::unordered_map<std::string, Listing> listings_;
+  std::vector<Entry> entries_;             // by path
+  std::unordered_set<std::string> known_;  // folders
+  mutable std::mutex mutex_;               // guards the handles
   mutable std::vector<Archive> idle_;
 };
 

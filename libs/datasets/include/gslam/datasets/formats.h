@@ -24,7 +24,8 @@ namespace gslam {
 inline namespace v1 {
 
 /// The name of the format that a folder or file has, such as "euroc"; empty where none of
-/// datasetFormats() has it. Looks at names of files and the heads of a few, reads no image.
+/// datasetFormats() has it. Looks at names of files and the heads of a few, reads no image. Of a
+/// broken archive it is "cvmono", which says what is wrong when it is opened.
 GSLAM_DATASETS_EXPORT std::string datasetFormatOf(const std::string& path);
 
 /// All formats below.
