@@ -9,6 +9,7 @@
 
 #include "../reading/decode.h"
 #include "../reading/file_tree.h"
+#include "../reading/remarks.h"
 
 namespace gslam {
 inline namespace v1 {
