@@ -59,6 +59,9 @@ function(_gslam_add_programs name standard)
     target_link_libraries(${name}_test PRIVATE GSLAM::${name} GTest::gmock GTest::gtest_main)
     target_include_directories(${name}_test PRIVATE "${GSLAM_SOURCE_ROOT}/tests/harness")
     _gslam_set_up_program(${name}_test ${standard})
+    # A third less time to compile than with -O2, with which tests/headers compiles the headers.
+    target_compile_options(${name}_test PRIVATE
+      "$<$<AND:$<CXX_COMPILER_ID:GNU,Clang>,$<CONFIG:RelWithDebInfo>>:-O1>")
     gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST
       PROPERTIES LABELS ${name})
   endif()

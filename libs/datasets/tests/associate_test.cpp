@@ -67,7 +67,7 @@ TEST(associate, is_as_good_as_trying_all_ways) {
   }
 }
 
-// TUM's associate.py pairs 10 with 12 first, and leaves 0 and 19 alone.
+// TUM's associate.py pairs 10 with 9 first, and leaves 2 and 17 alone.
 TEST(associate, takes_more_pairs_before_nearer_ones) {
   const Pairs pairs = associate(Stamps{2, 10}, Stamps{9, 17}, 8);
   ASSERT_EQ(pairs.size(), 2U);

@@ -115,6 +115,14 @@ TEST(check_dataset, finds_each_fault) {
       {"has no pixels", "", [](Parts& p) { p.frames[4]->images[0].image = Image(); }},
       {"calibrated for 32 x 24", "",
        [](Parts& p) { p.frames[4]->images[1].image = Image(64, 24, PixelType::u16); }},
+      {"expected one channel of u16 or f32", "",
+       [](Parts& p) { p.frames[4]->images[1].image = Image(32, 24, PixelType::u8, 3); }},
+      {"a satellite position is not between", "",
+       [](Parts& p) { p.frames[4]->gnss[0].stamp = 990000000; }},
+      {"the pose is not finite", "",
+       [nan](Parts& p) {
+         p.info.ground_truth.add(450000000, gslam::SE3d(gslam::SO3d(), {{nan, 0, 0}}));
+       }},
       {"has no depth scale", "", [](Parts& p) { p.frames[4]->images[1].depth_scale = 0; }},
       {"camera 'depth' has no image at all", "",
        [](Parts& p) {
@@ -129,6 +137,8 @@ TEST(check_dataset, finds_each_fault) {
          for (auto& frame : p.frames) frame->gnss.clear();
        }},
       {"no frame can be read", "", [](Parts& p) { p.frames.clear(); }},
+      {"", "'depth' is the same everywhere",
+       [](Parts& p) { p.frames[4]->images[1].image = Image(32, 24, PixelType::u16); }},
       {"", "one colour everywhere",
        [](Parts& p) { p.frames[4]->images[0].image = Image(32, 24, PixelType::u8); }},
       {"", "it has no image of camera 'depth'", [](Parts& p) { p.frames[4]->images.pop_back(); }},
@@ -172,7 +182,7 @@ class Broken : public gslam::Dataset {
   const DatasetInfo& info() const override { return info_; }
   std::shared_ptr<const Frame> next() override {
     if (at_ == 7) return nullptr;
-    if (++at_ % 2 == 0) throw gslam::Error("a file is damaged");
+    if (++at_ % 2 == 0) throw gslam::FileError(std::to_string(at_) + ".png", "a file is damaged");
     const auto frame = std::make_shared<Frame>();
     frame->id = at_ - 1;
     frame->stamp = std::int64_t(at_);
@@ -195,7 +205,8 @@ TEST(check_dataset, counts_what_cannot_be_read) {
   Broken dataset(9);
   const DatasetCheck check = checkDataset(dataset);
   EXPECT_EQ(check.frames, 4U);
-  EXPECT_TRUE(has(check.errors, "frame 1 cannot be read: a file is damaged (and 2 more like it)"));
+  EXPECT_TRUE(
+      has(check.errors, "frame 1 (2.png): cannot be read: a file is damaged (and 2 more like it)"));
   EXPECT_TRUE(has(check.errors, "there are 7 frames, but it says 9"));
 }
 

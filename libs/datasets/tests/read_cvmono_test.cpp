@@ -55,6 +55,26 @@ TEST(read_cvmono, folders_patterns_and_archives_of_images) {
   }
 }
 
+TEST(read_cvmono, a_folder_may_have_a_number_as_its_name) {
+  const TempFolder folder;
+  folder.writeImage("00/a.png", 1);
+  const reading_case::fs::path here = reading_case::fs::current_path();
+  reading_case::fs::current_path(folder.path());
+  const auto dataset = openWith(gslam::cvMonoFactory(), "00");
+  reading_case::fs::current_path(here);
+  EXPECT_FALSE(dataset->info().is_live);
+  EXPECT_EQ(dataset->info().frame_count, 1U);
+}
+
+TEST(read_cvmono, other_folders_with_images_are_said) {
+  const TempFolder folder;
+  folder.writeImage("100MEDIA/a.png", 1);
+  folder.writeImage("101MEDIA/b.png", 2);
+  const auto dataset = openWith(gslam::cvMonoFactory(), folder.path());
+  EXPECT_EQ(dataset->info().frame_count, 1U);
+  EXPECT_TRUE(hasRemark(dataset->info(), "not those of 101MEDIA"));
+}
+
 TEST(read_cvmono, rate_and_every_and_camera) {
   const TempFolder folder;
   for (int i = 0; i < 10; ++i) folder.writeImage("f" + std::to_string(i) + ".png", i);
@@ -105,6 +125,35 @@ TEST(read_cvmono, videos_go_forwards_and_can_be_wound) {
       openWith(gslam::cvMonoFactory(), folder / "v.avi", Svar::object({{"every", 7}}));
   EXPECT_EQ(some->info().frame_count, 6U);
   for (int i = 0; i < 6; ++i) EXPECT_EQ(brightness(*some->next()), 7 * i);
+}
+
+// The number of frames in an AVI's head: dwTotalFrames of avih, and dwLength of strh.
+void stateFrames(const std::string& path, std::uint32_t count) {
+  std::string bytes = reading_case::textOf(path);
+  for (const auto& [chunk, offset] :
+       {std::pair<const char*, std::size_t>{"avih", 24}, {"strh", 40}}) {
+    const std::size_t at = bytes.find(chunk) + offset;
+    for (std::size_t i = 0; i < 4; ++i) bytes[at + i] = char(count >> (8 * i));
+  }
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+TEST(read_cvmono, a_video_that_states_a_huge_number_of_frames_is_refused) {
+  const TempFolder folder;
+  if (!writeVideo(folder / "v.avi", 20)) GTEST_SKIP() << "OpenCV cannot write videos here";
+  stateFrames(folder / "v.avi", 900000000);
+  EXPECT_THROW(openWith(gslam::cvMonoFactory(), folder / "v.avi"), gslam::FileError);
+}
+
+TEST(read_cvmono, a_video_that_ends_early_says_so) {
+  const TempFolder folder;
+  if (!writeVideo(folder / "v.avi", 20)) GTEST_SKIP() << "OpenCV cannot write videos here";
+  stateFrames(folder / "v.avi", 23);
+  const auto dataset = openWith(gslam::cvMonoFactory(), folder / "v.avi");
+  if (dataset->info().frame_count != 23) GTEST_SKIP() << "this OpenCV counts frames itself";
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(brightness(*dataset->next()), i);
+  for (int i = 0; i < 3; ++i) EXPECT_THROW(dataset->next(), gslam::FileError);
+  EXPECT_EQ(dataset->next(), nullptr);
 }
 
 TEST(read_cvmono, frames_stay_as_they_are) {

@@ -7,12 +7,12 @@
 #include <fstream>
 #include <sstream>
 
-#include "read_case.h"
+#include "format_case.h"
 #include "test_data.h"
 
 namespace {
 
-using namespace read_case;  // NOLINT(google-build-using-namespace)
+using namespace format_case;  // NOLINT(google-build-using-namespace)
 using export_case::frameAt;
 
 std::string realFolder() {

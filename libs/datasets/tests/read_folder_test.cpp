@@ -110,6 +110,23 @@ TEST(read_folder, a_folder_with_a_rate_needs_no_stamps) {
   EXPECT_TRUE(reading_case::isSame(dataset->next()->images[0].image, last));
 }
 
+TEST(read_folder, a_description_wins_over_what_a_folder_looks_like) {
+  const TempFolder folder;
+  folder.write("dataset.yaml", "cameras: [{images: ./cam0/data/, rate: 10}]\n");
+  folder.write("cam0/data.csv", "");
+  folder.write("other/rgb.txt", "");
+  folder.writeImage("cam0/data/1.png", 1);
+  EXPECT_EQ(gslam::datasetFormatOf(folder.path()), "folder");
+  EXPECT_EQ(gslam::openDataset(folder.path())->info().frame_count, 1U);
+  EXPECT_EQ(gslam::openDataset("cvmono:" + (folder / "cam0/data"))->info().format, "cvmono");
+  EXPECT_THROW(gslam::openDataset(folder / "nowhere"), gslam::FileError);
+  EXPECT_THROW(gslam::openDataset(folder.path(), gslam::Svar::object({{"colour", 1}})),
+               gslam::SvarError);
+  folder.write("broken.zip", "no archive");
+  const std::string message = messageOf([&] { (void)gslam::openDataset(folder / "broken.zip"); });
+  EXPECT_NE(message.find("zip archive"), std::string::npos) << message;
+}
+
 TEST(read_folder, errors_say_what_to_mend) {
   struct Case {
     const char *file, *text, *message;

@@ -138,7 +138,7 @@ TEST(read_photos, images_without_exif_are_one_a_second) {
   EXPECT_EQ(dataset->info().last_stamp, 2000000000);
   EXPECT_FALSE(dataset->info().sensors.has_gnss);
   EXPECT_TRUE(hasRemark(dataset->info(), "not every photo has a time"));
-  EXPECT_TRUE(hasRemark(dataset->info(), "no photo has a position"));
+  EXPECT_TRUE(hasRemark(dataset->info(), "no photo has a position with an altitude"));
   EXPECT_TRUE(hasRemark(dataset->info(), "skipped 1 photos that cannot be read"));
   EXPECT_FALSE(dataset->info().sensors.cameras[0].camera.isValid());
 }

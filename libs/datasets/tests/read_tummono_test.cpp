@@ -5,11 +5,11 @@
 
 #include <sstream>
 
-#include "read_case.h"
+#include "format_case.h"
 
 namespace {
 
-using namespace read_case;  // NOLINT(google-build-using-namespace)
+using namespace format_case;  // NOLINT(google-build-using-namespace)
 using export_case::frameAt;
 
 constexpr int kWidth = 48, kHeight = 32;

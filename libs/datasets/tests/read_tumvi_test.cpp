@@ -3,12 +3,12 @@
 #include <gslam/datasets/formats.h>
 #include <gslam/datasets/synthetic.h>
 
-#include "read_case.h"
+#include "format_case.h"
 #include "test_data.h"
 
 namespace {
 
-using namespace read_case;  // NOLINT(google-build-using-namespace)
+using namespace format_case;  // NOLINT(google-build-using-namespace)
 using export_case::frameAt;
 
 class Exported {

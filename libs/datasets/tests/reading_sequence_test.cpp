@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
+#include <new>
 #include <set>
 #include <thread>
 
@@ -171,6 +172,41 @@ TEST(reading_sequence, samples_go_out_once_with_the_frame_after_them) {
   EXPECT_NEAR(dataset->info().sensors.cameras[0].rate, 20, 1e-9);
 }
 
+TEST(reading_sequence, samples_of_a_damaged_frame_go_out_with_the_next) {
+  Sequence sequence = numbered(20, std::make_shared<Loads>());
+  for (std::int64_t stamp = 0; stamp < 20 * kStep; stamp += 10000000) {
+    ImuSample sample{};
+    sample.stamp = stamp;
+    sequence.imu.push_back(sample);
+  }
+  const auto dataset = deliver(std::move(sequence), {2, 4});
+  std::int64_t before = -10000000;
+  for (std::size_t i = 0; i < 20; ++i) {
+    if (i == 13) {
+      EXPECT_THROW(dataset->next(), gslam::Error);
+      continue;
+    }
+    for (const ImuSample& sample : dataset->next()->imu) {
+      EXPECT_EQ(sample.stamp, before + 10000000);
+      before = sample.stamp;
+    }
+  }
+  EXPECT_EQ(before, 19 * kStep);
+  dataset->seek(14);
+  EXPECT_EQ(dataset->next()->imu.size(), 5U);
+}
+
+TEST(reading_sequence, what_is_no_error_of_ours_reaches_the_caller_as_well) {
+  Sequence sequence = numbered(2, std::make_shared<Loads>());
+  sequence.load = [](std::size_t frame, std::size_t) {
+    if (frame == 0) throw std::bad_alloc();
+    return Image(1, 1, PixelType::u8);
+  };
+  const auto dataset = deliver(std::move(sequence), {2, 4});
+  EXPECT_THROW(dataset->next(), std::bad_alloc);
+  EXPECT_EQ(dataset->next()->id, 1U);
+}
+
 TEST(reading_sequence, gaps_and_ground_truth_of_another_time_are_said) {
   Sequence sequence = numbered(12, std::make_shared<Loads>());
   for (std::size_t i = 6; i < 12; ++i) sequence.stamps[i] += 10 * kStep;
@@ -190,6 +226,9 @@ TEST(reading_sequence, refuses_none_and_disorder) {
   Sequence twins = numbered(3, std::make_shared<Loads>());
   twins.stamps[1] = twins.stamps[2];
   EXPECT_THROW(deliver(std::move(twins), {}), gslam::Error);
+  Sequence ages = numbered(2, std::make_shared<Loads>());
+  ages.stamps = {-9000000000000000000, 9000000000000000000};
+  EXPECT_THROW(deliver(std::move(ages), {}), gslam::Error);
   EXPECT_THROW(prefetchOf(gslam::Svar::object({{"threads", -1}})), gslam::ArgumentError);
   EXPECT_THROW(prefetchOf(gslam::Svar::object({{"ahead", 0}})), gslam::ArgumentError);
 }
@@ -256,7 +295,11 @@ TEST(reading_list, frames_have_an_image_of_each_camera) {
   EXPECT_EQ(sequence.exposures, (std::vector<std::int64_t>{5, 8, 7, 9}));
   EXPECT_EQ(sequence.remarks.sentences().size(), 2U);
   Sequence none = sequence;
-  EXPECT_THROW(makeFrames(none, {left, {{500, "r", 0, 0}}}, 2), gslam::Error);
+  none.remarks.skip("images that l.csv lists and that do not exist", "a.png (l.csv:1)");
+  const std::string message = messageOf([&] {
+    (void)makeFrames(none, {left, {{500, "r", 0, 0}}}, 2);
+  });
+  EXPECT_NE(message.find("a.png (l.csv:1)"), std::string::npos) << message;
 }
 
 // --- files of images ---
@@ -313,6 +356,36 @@ TEST(reading_images, a_damaged_one_is_an_error_and_the_next_one_comes) {
   const std::string message = messageOf([&] { (void)dataset->next(); });
   EXPECT_NE(message.find("5.png"), std::string::npos) << message;
   EXPECT_EQ(dataset->next(), nullptr);
+}
+
+TEST(reading_images, only_depth_is_depth) {
+  const TempFolder folder;
+  folder.writeImage("colour.png", 0, CV_8UC3);
+  folder.writeImage("depth.png", 0, CV_16UC1);
+  for (const char* name : {"colour.png", "depth.png"}) {
+    Sequence sequence;
+    sequence.stamps = {0};
+    sequence.info.sensors.cameras = {namedCamera("depth")};
+    sequence.info.sensors.cameras[0].kind = gslam::ImageKind::depth;
+    const std::string message = messageOf([&] {
+      loadImageFiles(sequence, {FileTree::open(folder.path()), {name}});
+    });
+    EXPECT_EQ(message.empty(), name[0] == 'd') << message;
+  }
+}
+
+// A few bytes that ask for 80000 x 80000 pixels.
+TEST(reading_images, a_bomb_is_refused_by_its_head) {
+  const TempFolder folder;
+  folder.writeImage("0.png", 0);
+  std::string bomb = reading_case::textOf(folder / "0.png");
+  for (const std::size_t at : {16U, 20U}) bomb.replace(at, 4, std::string("\x00\x01\x38\x80", 4));
+  folder.write("1.png", bomb);
+  const auto dataset = deliver(withFiles(folder, {"0.png", "1.png"}), {1, 2});
+  (void)dataset->next();
+  const std::string message = messageOf([&] { (void)dataset->next(); });
+  EXPECT_NE(message.find("80000 x 80000"), std::string::npos) << message;
+  EXPECT_THROW(withFiles(folder, {"1.png"}), gslam::FileError);
 }
 
 TEST(reading_images, a_calibration_for_another_size_is_refused) {
