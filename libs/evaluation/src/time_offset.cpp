@@ -1,0 +1,204 @@
+#include <gslam/evaluation/pairs.h>
+#include <gslam/geometry/distance.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "time_units.h"
+
+namespace gslam {
+inline namespace v1 {
+namespace {
+
+constexpr double kRange = 10;  // seconds about zero
+constexpr double kLeastCorrelation = 0.3;
+constexpr double kFarthest = 4e9;     // seconds; beyond, a sum of stamps may not fit
+constexpr double kMostCells = 20000;  // bounds what a search takes, however long a sequence is
+
+// As a difference of stamps: seconds since 1970 would lose digits.
+double secondsFrom(std::int64_t begin, std::int64_t stamp) {
+  const bool is_later = stamp >= begin;
+  const std::uint64_t apart = is_later ? std::uint64_t(stamp) - std::uint64_t(begin)
+                                       : std::uint64_t(begin) - std::uint64_t(stamp);
+  return (is_later ? 1e-9 : -1e-9) * double(apart);
+}
+
+// How far something moved and turned up to each time; between, on a straight line. The mean speed
+// in a cell of time is exact for it, however irregular the stamps are.
+class Way {
+ public:
+  explicit Way(const Trajectory& trajectory) {
+    double moved = 0, turned = 0;
+    for (std::size_t i = 0; i < trajectory.size(); ++i) {
+      if (i > 0) {
+        const SE3d& a = trajectory[i - 1].pose;
+        const SE3d& b = trajectory[i].pose;
+        moved += (b.translation() - a.translation()).norm();
+        turned += angleBetween(a.rotation(), b.rotation());
+      }
+      // Differences of stamps first: seconds since 1970 would lose digits.
+      times_.push_back(secondsFrom(trajectory.front().stamp, trajectory[i].stamp));
+      moved_.push_back(moved);
+      turned_.push_back(turned);
+    }
+  }
+
+  double first() const { return times_.front(); }
+  double last() const { return times_.back(); }
+
+  // At ascending times, all inside; from the place on that the last call left.
+  void at(double time, std::size_t& place, double& moved, double& turned) const {
+    while (place + 2 < times_.size() && times_[place + 1] < time) ++place;
+    const double part = (time - times_[place]) / (times_[place + 1] - times_[place]);
+    moved = moved_[place] + part * (moved_[place + 1] - moved_[place]);
+    turned = turned_[place] + part * (turned_[place + 1] - turned_[place]);
+  }
+
+  std::size_t placeOf(double time) const {
+    const auto after = std::upper_bound(times_.begin(), times_.end(), time);
+    const std::ptrdiff_t i = std::max<std::ptrdiff_t>(after - times_.begin() - 1, 0);
+    return std::min(std::size_t(i), times_.size() - 2);
+  }
+
+ private:
+  std::vector<double> times_, moved_, turned_;
+};
+
+// Pearson's correlation of two lists, one number at a time.
+struct Correlation {
+  double count = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
+
+  void add(double x, double y) {
+    ++count;
+    a += x;
+    b += y;
+    aa += x * x;
+    bb += y * y;
+    ab += x * y;
+  }
+  // Whether both vary by more than rounding does.
+  bool varies() const {
+    return aa * count - a * a > 1e-9 * aa * count && bb * count - b * b > 1e-9 * bb * count;
+  }
+  double value() const {
+    if (!varies()) return 0;
+    return (count * ab - a * b) / std::sqrt((count * aa - a * a) * (count * bb - b * b));
+  }
+};
+
+class OffsetSearch {
+ public:
+  OffsetSearch(const Way& reference, const Way& estimate)
+      : reference_(reference), estimate_(estimate) {}
+
+  // Mean of the correlations of the speeds that vary, where the two overlap by half of the shorter;
+  // -1 where they do not.
+  double correlation(double offset, double cell) const {
+    const double begin = std::max(reference_.first(), estimate_.first() + offset);
+    const double end = std::min(reference_.last(), estimate_.last() + offset);
+    const double shorter =
+        std::min(reference_.last() - reference_.first(), estimate_.last() - estimate_.first());
+    const auto cells = static_cast<std::size_t>(std::max(0.0, (end - begin) / cell));
+    if (end - begin < 0.5 * shorter || cells < 8) return -1;
+    Correlation moving, turning;
+    std::size_t i = reference_.placeOf(begin), j = estimate_.placeOf(begin - offset);
+    double m = 0, t = 0, n = 0, u = 0;
+    reference_.at(begin, i, m, t);
+    estimate_.at(begin - offset, j, n, u);
+    for (std::size_t k = 1; k <= cells; ++k) {
+      const double time = begin + double(k) * cell;
+      double m2 = 0, t2 = 0, n2 = 0, u2 = 0;
+      reference_.at(time, i, m2, t2);
+      estimate_.at(time - offset, j, n2, u2);
+      moving.add(m2 - m, n2 - n);
+      turning.add(t2 - t, u2 - u);
+      m = m2, t = t2, n = n2, u = u2;
+    }
+    const int varying = int(moving.varies()) + int(turning.varies());
+    return varying == 0 ? -1 : (moving.value() + turning.value()) / varying;
+  }
+
+  double best(double from, double to, double step, double cell) const {
+    double result = 0, most = -2;
+    for (double offset = from; offset <= to; offset += step) {
+      const double value = correlation(offset, cell);
+      if (value > most) most = value, result = offset;
+    }
+    return result;
+  }
+
+  // Golden section; the correlation has one peak there.
+  double refined(double from, double to, double cell) const {
+    const double golden = 0.5 * (std::sqrt(5.0) - 1);
+    double x = to - golden * (to - from), y = from + golden * (to - from);
+    double fx = correlation(x, cell), fy = correlation(y, cell);
+    while (to - from > 1e-6) {
+      if (fx >= fy) {
+        to = y, y = x, fy = fx;
+        x = to - golden * (to - from), fx = correlation(x, cell);
+      } else {
+        from = x, x = y, fx = fy;
+        y = from + golden * (to - from), fy = correlation(y, cell);
+      }
+    }
+    return 0.5 * (from + to);
+  }
+
+ private:
+  const Way& reference_;
+  const Way& estimate_;
+};
+
+std::string numberText(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g", value);
+  return text;
+}
+
+}  // namespace
+
+TimeOffset estimateTimeOffset(const Trajectory& reference, const Trajectory& estimate) {
+  TimeOffset result;
+  if (reference.size() < 10 || estimate.size() < 10) {
+    result.reason = "a trajectory has fewer than 10 poses";
+    return result;
+  }
+  // Times count from the begin of each.
+  const Way a(reference), b(estimate);
+  const double apart = secondsFrom(estimate.front().stamp, reference.front().stamp);
+  if (std::fabs(apart) > kFarthest) {
+    result.reason = "the two begin centuries apart";
+    return result;
+  }
+  const bool overlaps = apart <= b.last() && -apart <= a.last();
+  const double centre = overlaps ? -apart : 0.5 * (a.last() - b.last());
+  const double range = overlaps ? kRange : 0.5 * (a.last() + b.last());
+  const double finest =
+      2e-9 * std::max(evaluation::medianStep(reference), evaluation::medianStep(estimate));
+  const double coarsest =
+      std::max({finest, range / 2000, std::min(a.last(), b.last()) / kMostCells});
+  const OffsetSearch search(a, b);
+  double offset = search.best(centre - range, centre + range, 0.5 * coarsest, coarsest);
+  double cell = coarsest;
+  for (; cell > 2 * finest; cell *= 0.5) {
+    offset = search.best(offset - cell, offset + cell, 0.25 * cell, 0.5 * cell);
+  }
+  offset = search.refined(offset - cell, offset + cell, std::min(cell, finest));
+  result.correlation = search.correlation(offset, std::min(cell, finest));
+  if (result.correlation < kLeastCorrelation) {
+    result.reason = result.correlation <= -1
+                        ? "the speeds do not vary, or the two overlap by less than half"
+                        : "the speeds of the two do not go together (correlation " +
+                              numberText(result.correlation) + ")";
+    return result;
+  }
+  result.is_valid = true;
+  // From the begins of both to their clocks.
+  result.offset =
+      (reference.front().stamp - estimate.front().stamp) + std::int64_t(std::llround(offset * 1e9));
+  return result;
+}
+
+}  // namespace v1
+}  // namespace gslam
