@@ -1,9 +1,11 @@
+#include <gslam/evaluation/align.h>
 #include <gslam/evaluation/pairs.h>
 #include <gslam/geometry/distance.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "time_units.h"
 
@@ -128,27 +130,86 @@ class OffsetSearch {
     return result;
   }
 
-  // Golden section; the correlation has one peak there.
-  double refined(double from, double to, double cell) const {
-    const double golden = 0.5 * (std::sqrt(5.0) - 1);
-    double x = to - golden * (to - from), y = from + golden * (to - from);
-    double fx = correlation(x, cell), fy = correlation(y, cell);
-    while (to - from > 1e-6) {
-      if (fx >= fy) {
-        to = y, y = x, fy = fx;
-        x = to - golden * (to - from), fx = correlation(x, cell);
-      } else {
-        from = x, x = y, fx = fy;
-        y = from + golden * (to - from), fy = correlation(y, cell);
-      }
-    }
-    return 0.5 * (from + to);
-  }
-
  private:
   const Way& reference_;
   const Way& estimate_;
 };
+
+// The place of the least value, by golden section; there should be one valley.
+template <class Function>
+double leastPlace(double from, double to, const Function& function) {
+  const double golden = 0.5 * (std::sqrt(5.0) - 1);
+  double x = to - golden * (to - from), y = from + golden * (to - from);
+  double fx = function(x), fy = function(y);
+  while (to - from > 1e-6) {
+    if (fx <= fy) {
+      to = y, y = x, fy = fx;
+      x = to - golden * (to - from), fx = function(x);
+    } else {
+      from = x, x = y, fx = fy;
+      y = from + golden * (to - from), fy = function(y);
+    }
+  }
+  return 0.5 * (from + to);
+}
+
+// How well positions fit at an offset: the mean squared distance after a similarity over those that
+// are inside of the reference. Speeds tell offsets apart over minutes, positions tell milliseconds:
+// the noise of poses counts once there, not divided by a small step.
+class PositionFit {
+ public:
+  PositionFit(const Trajectory& reference, const Trajectory& estimate)
+      : reference_(reference), estimate_(estimate), stride_(1 + estimate.size() / kMostPositions) {}
+
+  // Infinite where nothing can be said.
+  double at(std::int64_t offset) const {
+    std::vector<Vec3d> world, map;
+    for (std::size_t i = 0; i < estimate_.size(); i += stride_) {
+      Vec3d position{};
+      if (!positionAt(estimate_[i].stamp + offset, position)) continue;
+      world.push_back(position);
+      map.push_back(estimate_[i].pose.translation());
+    }
+    constexpr double kNothing = std::numeric_limits<double>::infinity();
+    if (world.size() < 10 || 2 * stride_ * world.size() < estimate_.size()) return kNothing;
+    AlignmentOptions how;
+    how.method = AlignmentMethod::sim3;
+    const Alignment alignment = alignPositions(world, map, how);
+    if (!alignment.is_valid) return kNothing;
+    double sum = 0;
+    for (std::size_t i = 0; i < world.size(); ++i) {
+      sum += (alignment.S_world_map * map[i] - world[i]).squaredNorm();
+    }
+    return sum / double(world.size());
+  }
+
+ private:
+  static constexpr std::size_t kMostPositions = 4000;
+
+  bool positionAt(std::int64_t stamp, Vec3d& position) const {
+    const auto after = reference_.lowerBound(stamp);
+    if (after == reference_.end() || after == reference_.begin()) return false;
+    const auto before = after - 1;
+    const double part = double(stamp - before->stamp) / double(after->stamp - before->stamp);
+    position = (1 - part) * before->pose.translation() + part * after->pose.translation();
+    return true;
+  }
+
+  const Trajectory& reference_;
+  const Trajectory& estimate_;
+  std::size_t stride_;
+};
+
+// The offset within a range (seconds) about a found one at which positions fit best; the found one
+// where they do not tell.
+std::int64_t refinedByPositions(const Trajectory& reference, const Trajectory& estimate,
+                                std::int64_t found, double range) {
+  const PositionFit fit(reference, estimate);
+  const auto offsetAt = [found](double s) { return found + std::int64_t(std::llround(1e9 * s)); };
+  const std::int64_t best =
+      offsetAt(leastPlace(-range, range, [&](double s) { return fit.at(offsetAt(s)); }));
+  return fit.at(best) < fit.at(found) ? best : found;
+}
 
 std::string numberText(double value) {
   char text[32];
@@ -184,7 +245,8 @@ TimeOffset estimateTimeOffset(const Trajectory& reference, const Trajectory& est
   for (; cell > 2 * finest; cell *= 0.5) {
     offset = search.best(offset - cell, offset + cell, 0.25 * cell, 0.5 * cell);
   }
-  offset = search.refined(offset - cell, offset + cell, std::min(cell, finest));
+  offset = leastPlace(offset - cell, offset + cell,
+                      [&](double at) { return -search.correlation(at, std::min(cell, finest)); });
   result.correlation = search.correlation(offset, std::min(cell, finest));
   if (result.correlation < kLeastCorrelation) {
     result.reason = result.correlation <= -1
@@ -195,8 +257,9 @@ TimeOffset estimateTimeOffset(const Trajectory& reference, const Trajectory& est
   }
   result.is_valid = true;
   // From the begins of both to their clocks.
-  result.offset =
+  const std::int64_t found =
       (reference.front().stamp - estimate.front().stamp) + std::int64_t(std::llround(offset * 1e9));
+  result.offset = refinedByPositions(reference, estimate, found, 2 * finest);
   return result;
 }
 

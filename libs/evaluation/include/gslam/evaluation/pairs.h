@@ -90,7 +90,8 @@ struct TimeOffset {
 
 /// The offset of two clocks, by the correlation of the speeds at which both trajectories move and
 /// turn: these do not depend on where the worlds lie, nor on the scale. Offsets within 10 s are
-/// looked for; where the two trajectories share no time, all that let them overlap by half.
+/// looked for; where the two trajectories share no time, all that let them overlap by half. Then
+/// positions, after a similarity, say it to a small part of a step.
 ///
 /// Precision: a small part of the time between two poses, where the motion is not uniform. An
 /// offset is refused where the speeds do not vary, or do not correlate by 0.3 at least.
