@@ -50,9 +50,9 @@ class Scorer {
       return score;
     }
     score.is_valid = true;
-    for (const double threshold : options_.thresholds) {
-      score.levels.push_back(options_.has_scale ? bestScale(threshold) : atScaleOne(threshold));
-      score.value += score.levels.back().fraction / double(options_.thresholds.size());
+    score.levels = options_.has_scale ? atBestScales() : atScaleOne();
+    for (const ScoreLevel& level : score.levels) {
+      score.value += level.fraction / double(options_.thresholds.size());
     }
     return score;
   }
@@ -136,46 +136,98 @@ class Scorer {
     }
   }
 
-  ScoreLevel atScaleOne(double threshold) const {
-    const double most = threshold * options_.length;
-    std::size_t right = 0;
+  // The nearest pair of poses decides for all thresholds.
+  std::vector<ScoreLevel> atScaleOne() const {
+    std::vector<std::size_t> right(options_.thresholds.size(), 0);
     for (const Part& part : parts_) {
-      bool is_right = false;
+      double least = std::numeric_limits<double>::infinity();
       visitWays(part, [&](const Vec3d& q, const Vec3d& p) {
-        is_right = is_right || (p - q).norm() <= most;
+        least = std::min(least, (p - q).squaredNorm());
       });
-      if (is_right) ++right;
+      least = std::sqrt(least);
+      for (std::size_t k = 0; k < right.size(); ++k) {
+        if (least <= options_.thresholds[k] * options_.length) ++right[k];
+      }
     }
-    return {threshold, double(right) / double(parts_.size()), 1};
+    std::vector<ScoreLevel> levels;
+    for (std::size_t k = 0; k < right.size(); ++k) {
+      levels.push_back({options_.thresholds[k], double(right[k]) / double(parts_.size()), 1});
+    }
+    return levels;
   }
 
-  // |s p - q| <= most is a quadratic inequality in s.
-  static bool scalesOf(const Vec3d& q, const Vec3d& p, double most, Interval& scales) {
-    const double pp = p.squaredNorm(), pq = p.dot(q), rest = q.squaredNorm() - most * most;
-    if (!(pp > 0)) {
+  // |s p - q| <= most is a quadratic inequality in s; this is what it needs of p and q.
+  struct Products {
+    double pp, pq, qq;
+  };
+
+  static bool scalesOf(const Products& m, double most, Interval& scales) {
+    const double rest = m.qq - most * most;
+    if (!(m.pp > 0)) {
       scales = {0, std::numeric_limits<double>::infinity()};
       return rest <= 0;
     }
-    const double discriminant = pq * pq - pp * rest;
+    const double discriminant = m.pq * m.pq - m.pp * rest;
     if (discriminant < 0) return false;
-    const double root = std::sqrt(discriminant);
-    scales = {std::max((pq - root) / pp, 0.0), (pq + root) / pp};
+    const double root = std::sqrt(discriminant), part = 1 / m.pp;
+    scales = {std::max((m.pq - root) * part, 0.0), (m.pq + root) * part};
     return scales.most > 0;
   }
 
-  // The scale that the intervals of most parts hold, by a sweep over their ends.
-  ScoreLevel bestScale(double threshold) const {
-    const double most = threshold * options_.length;
-    std::vector<std::pair<double, int>> ends;  // -1 begins: before ends at the same scale
-    std::vector<Interval> scales;
+  // Scales at which one part more (-1) or one part less (1) is right.
+  using Ends = std::vector<std::pair<double, int>>;
+
+  std::vector<ScoreLevel> atBestScales() const {
+    const std::size_t count = options_.thresholds.size();
+    std::vector<Ends> ends(count);
+    std::vector<Products> products;
     for (const Part& part : parts_) {
-      scales.clear();
+      products.clear();
       visitWays(part, [&](const Vec3d& q, const Vec3d& p) {
-        Interval one;
-        if (scalesOf(q, p, most, one)) scales.push_back(one);
+        products.push_back({p.squaredNorm(), p.dot(q), q.squaredNorm()});
       });
-      addUnion(scales, ends);
+      for (std::size_t k = 0; k < count; ++k) {
+        addUnion(products, options_.thresholds[k] * options_.length, ends[k]);
+      }
     }
+    std::vector<ScoreLevel> levels;
+    for (std::size_t k = 0; k < count; ++k) {
+      levels.push_back(bestScale(options_.thresholds[k], ends[k]));
+    }
+    return levels;
+  }
+
+  // The scales for which any of the ways is right. Nearly always they are one interval, so those
+  // that touch what there is join it at once, and only the others are sorted.
+  static void addUnion(const std::vector<Products>& products, double most, Ends& ends) {
+    std::vector<Interval> apart;
+    Interval joined = {1, 0}, one;
+    for (const Products& product : products) {
+      if (!scalesOf(product, most, one)) continue;
+      if (joined.least > joined.most) joined = one;
+      if (one.least <= joined.most && one.most >= joined.least) {
+        joined = {std::min(joined.least, one.least), std::max(joined.most, one.most)};
+      } else {
+        apart.push_back(one);
+      }
+    }
+    if (joined.least > joined.most) return;
+    apart.push_back(joined);
+    std::sort(apart.begin(), apart.end(),
+              [](const Interval& a, const Interval& b) { return a.least < b.least; });
+    for (std::size_t i = 0; i < apart.size();) {
+      double end = apart[i].most;
+      std::size_t j = i + 1;
+      for (; j < apart.size() && apart[j].least <= end; ++j) end = std::max(end, apart[j].most);
+      ends.emplace_back(apart[i].least, -1);
+      ends.emplace_back(end, 1);
+      i = j;
+    }
+  }
+
+  // The scale that the intervals of most parts hold, by a sweep over their ends; at the same scale
+  // begins come first.
+  ScoreLevel bestScale(double threshold, Ends& ends) const {
     std::sort(ends.begin(), ends.end());
     ScoreLevel level = {threshold, 0, 1};
     int right = 0, best = 0;
@@ -189,21 +241,6 @@ class Scorer {
     }
     level.fraction = double(best) / double(parts_.size());
     return level;
-  }
-
-  static void addUnion(std::vector<Interval>& scales, std::vector<std::pair<double, int>>& ends) {
-    std::sort(scales.begin(), scales.end(),
-              [](const Interval& a, const Interval& b) { return a.least < b.least; });
-    for (std::size_t i = 0; i < scales.size();) {
-      double most = scales[i].most;
-      std::size_t j = i + 1;
-      for (; j < scales.size() && scales[j].least <= most; ++j) {
-        most = std::max(most, scales[j].most);
-      }
-      ends.emplace_back(scales[i].least, -1);
-      ends.emplace_back(most, 1);
-      i = j;
-    }
   }
 
   const Trajectory& reference_;
