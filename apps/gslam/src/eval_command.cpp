@@ -9,6 +9,7 @@
 #include <gslam/svar/json.h>
 #include <sys/utsname.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -155,7 +156,8 @@ std::size_t countPoses(const std::string& content) {
       at_begin = true;
     } else if (at_begin && c != ' ' && c != '\t' && c != '\xef' && c != '\xbb' && c != '\xbf') {
       at_begin = false;
-      if (c != '#') ++count;
+      const bool is_number = (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.';
+      if (is_number) ++count;
     }
   }
   return count;
@@ -199,7 +201,8 @@ void readText(const Options& options, const std::string& which, const std::strin
     throw gslam::Error(error.what() + std::string("; --") + which +
                        "-stamps nanoseconds reads them so");
   }
-  input.repeated = countPoses(content) - input.trajectory.size();
+  const std::size_t poses = countPoses(content);
+  input.repeated = poses - std::min(poses, input.trajectory.size());
 }
 
 Input readInput(const Options& options, const std::string& which) {
@@ -297,6 +300,11 @@ gslam::EvaluationOptions evaluationOf(const Options& options, const Input& refer
   }
   how.lost_after = std::int64_t(1e9 * options.get<double>("lost-after"));
   how.protocol = protocolOf(reference, estimate);
+  const bool are_matrices = reference.format == "kitti" && estimate.format == "kitti";
+  if (are_matrices && how.association.method == gslam::AssociationMethod::evo) {
+    how.reference_matrices = gslam::readKittiMatrices(reference.path);
+    how.estimate_matrices = gslam::readKittiMatrices(estimate.path);
+  }
   return how;
 }
 

@@ -1,6 +1,10 @@
 #include <gslam/base/error.h>
 #include <gslam/evaluation/evaluate.h>
 
+#include <optional>
+
+#include "evo_matrices.h"
+
 namespace gslam {
 inline namespace v1 {
 namespace {
@@ -46,12 +50,31 @@ Nees neesOfRun(const Evaluation& evaluation, std::size_t poses) {
   return neesOf(evaluation.pairs, covariances, evaluation.alignment.S_world_map);
 }
 
-void measureRelative(Evaluation& result) {
+// Where evo is to be reproduced from KITTI's files.
+std::optional<evaluation::EvoMatrices> evoMatrices(const Evaluation& result, std::size_t reference,
+                                                   std::size_t estimate) {
+  const EvaluationOptions& options = result.options;
+  if (options.reference_matrices.empty() && options.estimate_matrices.empty()) return {};
+  if (options.reference_matrices.size() != reference ||
+      options.estimate_matrices.size() != estimate) {
+    throw ArgumentError("matrices", "are " + std::to_string(options.reference_matrices.size()) +
+                                        " and " + std::to_string(options.estimate_matrices.size()) +
+                                        ", expected one for each pose");
+  }
+  if (options.association.method != AssociationMethod::evo) return {};
+  return evaluation::EvoMatrices(result.pairs, options.reference_matrices,
+                                 options.estimate_matrices, options.alignment.method,
+                                 result.alignment.S_world_map);
+}
+
+void measureRelative(const std::optional<evaluation::EvoMatrices>& matrices, Evaluation& result) {
   const EvaluationOptions& options = result.options;
   const double scale = result.alignment.S_world_map.scale();
   for (const RpeOptions& rpe : options.rpe) {
     const std::vector<PairRange> ranges = rangesOf(result.pairs, rpe);
-    result.rpe.push_back({rpe, statisticsOf(relativeErrors(result.pairs, ranges, scale))});
+    PoseErrors errors = relativeErrors(result.pairs, ranges, scale);
+    if (matrices) matrices->useInRelative(ranges, errors);
+    result.rpe.push_back({rpe, statisticsOf(errors)});
   }
   if (options.has_kitti) result.kitti = kittiErrors(result.pairs, {}, scale);
   result.segments = segmentErrors(result.pairs, options.segments, result.alignment.S_world_map);
@@ -70,10 +93,13 @@ Evaluation evaluate(const Trajectory& reference, const Trajectory& estimate,
   result.has_ape = result.alignment.is_valid;
   // A rigid alignment does not change relative motions.
   result.has_relative = result.alignment.is_valid || !hasScale(options.alignment.method);
+  const auto matrices = evoMatrices(result, reference.size(), estimate.size());
   if (result.has_ape) {
-    result.ape = statisticsOf(absoluteErrors(result.pairs, result.alignment.S_world_map));
+    PoseErrors errors = absoluteErrors(result.pairs, result.alignment.S_world_map);
+    if (matrices) matrices->useInAbsolute(errors);
+    result.ape = statisticsOf(errors);
   }
-  if (result.has_relative) measureRelative(result);
+  if (result.has_relative) measureRelative(matrices, result);
   result.score = scoreOfRun(reference, estimate, options, result.pairs);
   if (!options.covariances.empty() && result.has_ape) {
     result.nees = neesOfRun(result, estimate.size());

@@ -164,6 +164,37 @@ TEST(evaluate, covariances_give_a_nees) {
   EXPECT_THROW(evaluate(reference, reference, options), gslam::ArgumentError);
 }
 
+// Of matrices that are rotations, evo's arithmetic makes what ours makes.
+TEST(evaluate, matrices_of_rotations_change_nothing) {
+  const Trajectory reference = made::trajectory(300);
+  const Trajectory estimate = made::noisy(reference, 0.1, 0.02);
+  EvaluationOptions options;
+  options.association.method = gslam::AssociationMethod::evo;
+  options.rpe = {gslam::parseRpe("1f"), gslam::parseRpe("5m:all")};
+  for (const char* const alignment : {"none", "origin", "se3", "sim3", "scale", "yaw"}) {
+    options.alignment = gslam::parseAlignment(alignment);
+    options.reference_matrices.clear();
+    options.estimate_matrices.clear();
+    const Evaluation ours = evaluate(reference, estimate, options);
+    for (const auto& pose : reference) {
+      options.reference_matrices.push_back(pose.pose.matrix3x4());
+    }
+    for (const auto& pose : estimate) {
+      options.estimate_matrices.push_back(pose.pose.matrix3x4());
+    }
+    const Evaluation evo = evaluate(reference, estimate, options);
+    EXPECT_NEAR(evo.ape.translation.rmse, ours.ape.translation.rmse, 1e-10) << alignment;
+    EXPECT_NEAR(evo.ape.full.rmse, ours.ape.full.rmse, 1e-10) << alignment;
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_NEAR(evo.rpe[i].statistics.translation.rmse, ours.rpe[i].statistics.translation.rmse,
+                  1e-10)
+          << alignment;
+    }
+  }
+  options.estimate_matrices.pop_back();
+  EXPECT_THROW(evaluate(reference, estimate, options), gslam::ArgumentError);
+}
+
 TEST(evaluate, numbers_of_frames_are_called_frames) {
   Trajectory reference;
   for (std::int64_t i = 0; i < 100; ++i) reference.add(i, made::poseAt(0.1 * double(i)));

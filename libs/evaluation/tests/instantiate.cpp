@@ -25,5 +25,6 @@ std::string instantiateEvaluation(const gslam::Trajectory& reference,
                      gslam::statisticsOf(gslam::absoluteErrors(pairs)).full.rmse;
   return gslam::evaluationText(evaluation) + gslam::rpeText(options.rpe[0]) +
          gslam::alignmentText(options.alignment) + std::to_string(sum) + alignment.reason +
+         std::to_string(gslam::readKittiMatrices("none").size()) +
          std::to_string(gslam::evaluationToSvar(evaluation).size());
 }

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <map>
 
@@ -200,6 +201,23 @@ TEST(kitti, refuses_wrong_options) {
   EXPECT_THROW(gslam::kittiErrors(pairs, options), gslam::ArgumentError);
   options.lengths = {};
   EXPECT_THROW(gslam::kittiErrors(pairs, options), gslam::ArgumentError);
+}
+
+TEST(kitti, matrices_are_read_as_they_stand) {
+  const std::string path = testing::TempDir() + "gslam_evaluation_matrices.txt";
+  const auto write = [&path](const std::string& text) { std::ofstream(path) << text; };
+  write("1.5 2 3 4 5 6 7 8 9 10 11 12\r\n\n# no pose\n1,0,0,1 0 1 0 2 0 0 1 -3e0 # one\n");
+  const std::vector<gslam::KittiMatrix> matrices = gslam::readKittiMatrices(path);
+  ASSERT_EQ(matrices.size(), 2U);
+  EXPECT_EQ(matrices[0](0, 0), 1.5);
+  EXPECT_EQ(matrices[0](1, 1), 6);
+  EXPECT_EQ(matrices[1](2, 3), -3);
+  for (const char* const text : {"1 2 3\n", "1 2 3 4 5 6 7 8 9 10 11 12 13\n", "a b\n"}) {
+    write(text);
+    EXPECT_THROW(gslam::readKittiMatrices(path), gslam::ParseError) << text;
+  }
+  std::remove(path.c_str());
+  EXPECT_THROW(gslam::readKittiMatrices(path), gslam::FileError);
 }
 
 // ---- segments of any length

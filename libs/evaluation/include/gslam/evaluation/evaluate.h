@@ -36,6 +36,11 @@ struct EvaluationOptions {
   /// and otherwise over the time of the reference.
   std::vector<TrackedFrame> frames;
   std::int64_t lost_after = 0;  ///< as CoverageOptions::lost_after
+  /// @{
+  /// Of KITTI files, one for each pose: with the association `evo`, translations are calculated
+  /// with these as evo does, which takes them for rotations. None: with the nearest rotations.
+  std::vector<KittiMatrix> reference_matrices, estimate_matrices;
+  /// @}
   /// One for each pose of the estimate, for the NEES; none: no NEES. Not for interpolated
   /// estimates.
   std::vector<PoseCovariance> covariances;
@@ -80,7 +85,9 @@ struct Evaluation {
 /// @param reference  ground truth, T_world_body
 /// @param estimate   what is measured, T_map_body; only poses that were tracked
 /// @param options    as said there
-/// @throws ArgumentError as pairPoses(), rangesOf(), segmentErrors() and neesOf()
+/// @throws ArgumentError as pairPoses(), rangesOf(), segmentErrors() and neesOf(), and when there
+/// are
+///   matrices, but not one for each pose
 GSLAM_EVALUATION_EXPORT Evaluation evaluate(const Trajectory& reference, const Trajectory& estimate,
                                             const EvaluationOptions& options = {});
 

@@ -3,6 +3,7 @@
 
 #include <gslam/evaluation/export.h>
 #include <gslam/evaluation/pairs.h>
+#include <gslam/geometry/mat.h>
 
 #include <cstddef>
 #include <string>
@@ -54,6 +55,14 @@ struct KittiErrors {
 /// @throws ArgumentError when there is no length, one is not above 0, or the step is 0
 GSLAM_EVALUATION_EXPORT KittiErrors kittiErrors(const PosePairs& pairs,
                                                 const KittiOptions& options = {}, double scale = 1);
+
+/// [R t] of a pose as it stands in a KITTI file: R is a rotation to about seven digits.
+using KittiMatrix = Mat<double, 3, 4>;
+
+/// The matrices of a KITTI file, as they stand there; readTrajectory() has the nearest rotations.
+/// @param path  the file
+/// @throws FileError when it cannot be opened, ParseError when a line has not 12 numbers
+GSLAM_EVALUATION_EXPORT std::vector<KittiMatrix> readKittiMatrices(const std::string& path);
 
 }  // namespace v1
 }  // namespace gslam
