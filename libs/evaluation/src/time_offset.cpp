@@ -1,11 +1,13 @@
 #include <gslam/evaluation/align.h>
 #include <gslam/evaluation/pairs.h>
-#include <gslam/geometry/distance.h>
+#include <gslam/geometry/vec.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "time_units.h"
 
@@ -14,6 +16,7 @@ inline namespace v1 {
 namespace {
 
 constexpr double kRange = 10;  // seconds about zero
+constexpr double kCell = 0.2;  // seconds over which a speed is taken
 constexpr double kLeastCorrelation = 0.3;
 constexpr double kFarthest = 4e9;     // seconds; beyond, a sum of stamps may not fit
 constexpr double kMostCells = 20000;  // bounds what a search takes, however long a sequence is
@@ -26,35 +29,35 @@ double secondsFrom(std::int64_t begin, std::int64_t stamp) {
   return (is_later ? 1e-9 : -1e-9) * double(apart);
 }
 
-// How far something moved and turned up to each time; between, on a straight line. The mean speed
-// in a cell of time is exact for it, however irregular the stamps are.
+// Poses at any time between the first and the last. How far apart two of them are, a fifth of a
+// second and more from one another, says how fast something goes; the way from pose to pose would
+// say how much the poses tremble.
 class Way {
  public:
-  explicit Way(const Trajectory& trajectory) {
-    double moved = 0, turned = 0;
-    for (std::size_t i = 0; i < trajectory.size(); ++i) {
-      if (i > 0) {
-        const SE3d& a = trajectory[i - 1].pose;
-        const SE3d& b = trajectory[i].pose;
-        moved += (b.translation() - a.translation()).norm();
-        turned += angleBetween(a.rotation(), b.rotation());
-      }
-      // Differences of stamps first: seconds since 1970 would lose digits.
-      times_.push_back(secondsFrom(trajectory.front().stamp, trajectory[i].stamp));
-      moved_.push_back(moved);
-      turned_.push_back(turned);
+  explicit Way(const Trajectory& trajectory) : trajectory_(trajectory) {
+    times_.reserve(trajectory.size());
+    for (const StampedPose& pose : trajectory) {
+      times_.push_back(secondsFrom(trajectory.front().stamp, pose.stamp));
     }
   }
 
   double first() const { return times_.front(); }
   double last() const { return times_.back(); }
 
-  // At ascending times, all inside; from the place on that the last call left.
-  void at(double time, std::size_t& place, double& moved, double& turned) const {
-    while (place + 2 < times_.size() && times_[place + 1] < time) ++place;
-    const double part = (time - times_[place]) / (times_[place + 1] - times_[place]);
-    moved = moved_[place] + part * (moved_[place + 1] - moved_[place]);
-    turned = turned_[place] + part * (turned_[place + 1] - turned_[place]);
+  struct Place {
+    Vec3d position;
+    Vec<double, 4> rotation;  // of length 1 nearly
+  };
+
+  // At ascending times, all inside; from the pose on that the last call left.
+  Place at(double time, std::size_t& i) const {
+    while (i + 2 < times_.size() && times_[i + 1] < time) ++i;
+    const double part = (time - times_[i]) / (times_[i + 1] - times_[i]);
+    const SE3d &a = trajectory_[i].pose, &b = trajectory_[i + 1].pose;
+    const Vec<double, 4>&p = a.rotation().quaternion(), &q = b.rotation().quaternion();
+    const double sign = p.dot(q) < 0 ? -1 : 1;
+    return {(1 - part) * a.translation() + part * b.translation(),
+            ((1 - part) * p + (sign * part) * q).normalized()};
   }
 
   std::size_t placeOf(double time) const {
@@ -64,8 +67,19 @@ class Way {
   }
 
  private:
-  std::vector<double> times_, moved_, turned_;
+  const Trajectory& trajectory_;
+  std::vector<double> times_;
 };
+
+double moved(const Way::Place& a, const Way::Place& b) {
+  return (b.position - a.position).norm();
+}
+
+// Twice the sine of half the angle.
+double turned(const Way::Place& a, const Way::Place& b) {
+  const double cosine = a.rotation.dot(b.rotation);
+  return 2 * std::sqrt(std::max(0.0, 1 - cosine * cosine));
+}
 
 // Pearson's correlation of two lists, one number at a time.
 struct Correlation {
@@ -105,17 +119,14 @@ class OffsetSearch {
     if (end - begin < 0.5 * shorter || cells < 8) return -1;
     Correlation moving, turning;
     std::size_t i = reference_.placeOf(begin), j = estimate_.placeOf(begin - offset);
-    double m = 0, t = 0, n = 0, u = 0;
-    reference_.at(begin, i, m, t);
-    estimate_.at(begin - offset, j, n, u);
+    Way::Place a = reference_.at(begin, i), b = estimate_.at(begin - offset, j);
     for (std::size_t k = 1; k <= cells; ++k) {
       const double time = begin + double(k) * cell;
-      double m2 = 0, t2 = 0, n2 = 0, u2 = 0;
-      reference_.at(time, i, m2, t2);
-      estimate_.at(time - offset, j, n2, u2);
-      moving.add(m2 - m, n2 - n);
-      turning.add(t2 - t, u2 - u);
-      m = m2, t = t2, n = n2, u = u2;
+      const Way::Place next_a = reference_.at(time, i), next_b = estimate_.at(time - offset, j);
+      moving.add(moved(a, next_a), moved(b, next_b));
+      turning.add(turned(a, next_a), turned(b, next_b));
+      a = next_a;
+      b = next_b;
     }
     const int varying = int(moving.varies()) + int(turning.varies());
     return varying == 0 ? -1 : (moving.value() + turning.value()) / varying;
@@ -235,19 +246,16 @@ TimeOffset estimateTimeOffset(const Trajectory& reference, const Trajectory& est
   const bool overlaps = apart <= b.last() && -apart <= a.last();
   const double centre = overlaps ? -apart : 0.5 * (a.last() - b.last());
   const double range = overlaps ? kRange : 0.5 * (a.last() + b.last());
-  const double finest =
-      2e-9 * std::max(evaluation::medianStep(reference), evaluation::medianStep(estimate));
-  const double coarsest =
-      std::max({finest, range / 2000, std::min(a.last(), b.last()) / kMostCells});
+  const double shorter = std::min(a.last(), b.last());
+  const double step =
+      1e-9 * std::max(evaluation::medianStep(reference), evaluation::medianStep(estimate));
+  const double cell =
+      std::max({std::min(kCell, shorter / 32), 2 * step, shorter / kMostCells, range / 4000});
   const OffsetSearch search(a, b);
-  double offset = search.best(centre - range, centre + range, 0.5 * coarsest, coarsest);
-  double cell = coarsest;
-  for (; cell > 2 * finest; cell *= 0.5) {
-    offset = search.best(offset - cell, offset + cell, 0.25 * cell, 0.5 * cell);
-  }
-  offset = leastPlace(offset - cell, offset + cell,
-                      [&](double at) { return -search.correlation(at, std::min(cell, finest)); });
-  result.correlation = search.correlation(offset, std::min(cell, finest));
+  double offset = search.best(centre - range, centre + range, 0.25 * cell, cell);
+  offset = leastPlace(offset - 0.5 * cell, offset + 0.5 * cell,
+                      [&](double at) { return -search.correlation(at, cell); });
+  result.correlation = search.correlation(offset, cell);
   if (result.correlation < kLeastCorrelation) {
     result.reason = result.correlation <= -1
                         ? "the speeds do not vary, or the two overlap by less than half"
@@ -259,7 +267,7 @@ TimeOffset estimateTimeOffset(const Trajectory& reference, const Trajectory& est
   // From the begins of both to their clocks.
   const std::int64_t found =
       (reference.front().stamp - estimate.front().stamp) + std::int64_t(std::llround(offset * 1e9));
-  result.offset = refinedByPositions(reference, estimate, found, 2 * finest);
+  result.offset = refinedByPositions(reference, estimate, found, cell);
   return result;
 }
 
