@@ -231,6 +231,13 @@ TEST(align, degenerate_positions_are_refused_with_a_reason) {
   expectRefused(wide, same, AlignmentMethod::scale, "the same");
   expectRefused(vertical, vertical, AlignmentMethod::yaw, "any heading");
   expectRefused(same, same, AlignmentMethod::yaw, "any heading");
+  // The last digits of a file are no width.
+  std::normal_distribution<double> normal;
+  Points rounded = line;
+  for (Vec3d& p : rounded) p += 1e-8 * Vec3d{{normal(random), normal(random), normal(random)}};
+  expectRefused(rounded, rounded, AlignmentMethod::se3, "lie on a line");
+  for (Vec3d& p : rounded) p += 1e-3 * Vec3d{{normal(random), normal(random), normal(random)}};
+  EXPECT_TRUE(alignPositions(rounded, rounded, by(AlignmentMethod::se3)).is_valid);
   // Two places do fix a heading, and a line has a scale.
   EXPECT_TRUE(
       alignPositions(Points{wide[0], wide[1]}, Points{wide[0], wide[1]}, by(AlignmentMethod::yaw))

@@ -182,6 +182,14 @@ TEST(score, no_other_scale_is_better) {
   options.has_scale = true;
   const Score best = scoreOf(reference, estimate, options);
   EXPECT_GT(best.value, 0);
+  // With the scales that it names, it is as good as it says.
+  for (std::size_t k = 0; k < best.levels.size(); ++k) {
+    const Score fixed =
+        scoreOf(reference, made::changed(estimate, [&](const SE3d& pose) {
+                  return SE3d(pose.rotation(), best.levels[k].scale * pose.translation());
+                }));
+    EXPECT_EQ(fixed.levels[k].fraction, best.levels[k].fraction);
+  }
   for (double scale = 0.5; scale < 2; scale *= 1.01) {
     const Score fixed = scoreOf(reference, made::changed(estimate, [&](const SE3d& pose) {
                                   return SE3d(pose.rotation(), scale * pose.translation());
@@ -227,6 +235,24 @@ TEST(score, is_never_improved_by_giving_up) {
     smaller += after.value < before.value ? 1 : 0;
   }
   EXPECT_GT(smaller, 150);  // leaving out what was right costs
+}
+
+// Where ground truth has a hole, nobody knows who is right.
+TEST(score, reference_is_not_interpolated_over_a_hole) {
+  Trajectory reference, estimate;
+  for (std::int64_t i = 0; i <= 400; ++i) {
+    const std::int64_t stamp = i * kSecond / 20;
+    if (i > 100 && i < 300) continue;
+    reference.add(stamp, made::poseAt(1e-9 * double(stamp)));
+    if (i != 100) estimate.add(stamp, reference.back().pose);
+  }
+  const double before = scoreOf(reference, estimate).value;
+  SE3d guess;
+  const std::int64_t behind = 5 * kSecond + kSecond / 25;
+  ASSERT_TRUE(reference.interpolate(behind, guess));
+  estimate.add(behind, guess);
+  EXPECT_EQ(scoreOf(reference, estimate).value, before);
+  EXPECT_LT(before, 1);
 }
 
 TEST(score, of_numbered_frames) {

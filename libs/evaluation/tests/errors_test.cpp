@@ -189,6 +189,9 @@ TEST(rpe, consecutive_ways_join) {
   }
   EXPECT_EQ(rangesOf(pairs, parseRpe("1s")).size(), 14U);  // 300 poses at 20 Hz last 14.95 s
   EXPECT_EQ(rangesOf(pairs, parseRpe("1s"))[0].last, 20U);
+  // Ten tenths are less than one, as double.
+  const Trajectory tenths = made::trajectory(50, kSecond / 10);
+  EXPECT_EQ(rangesOf(made::pairs(tenths, tenths), parseRpe("1s"))[0].last, 10U);
 }
 
 TEST(rpe, ways_that_are_too_long_are_none) {
@@ -207,6 +210,7 @@ TEST(rpe, a_standing_reference_has_ways_of_no_length) {
   EXPECT_TRUE(rangesOf(pairs, parseRpe("1m:all")).empty());
   EXPECT_TRUE(rangesOf(pairs, parseRpe("1deg")).empty());
   EXPECT_EQ(gslam::driftOf(pairs).length, 0);
+  EXPECT_EQ(gslam::driftOf(pairs).translation_percent, 0);
 }
 
 TEST(rpe, texts) {

@@ -190,6 +190,20 @@ TEST(kitti, a_scale_counts) {
   EXPECT_NEAR(gslam::kittiErrors(pairs, {}, 1 / 0.9).t_err_percent, 0, 1e-9);
 }
 
+TEST(kitti, speeds_of_two_segments_are_not_printed) {
+  gslam::Trajectory reference;
+  for (std::int64_t i = 0; i < 130; ++i) reference.add(i, gslam::SE3d({}, {{double(i), 0, 0}}));
+  const auto part = [&](std::size_t count) {
+    gslam::Trajectory result;
+    for (std::size_t i = 0; i < count; ++i) result.add(reference[i].stamp, reference[i].pose);
+    return gslam::kittiErrors(made::pairs(result, result));
+  };
+  EXPECT_EQ(part(115).count, 2U);
+  EXPECT_EQ(part(115).speeds.size(), 0U);
+  EXPECT_EQ(part(125).count, 3U);
+  EXPECT_EQ(part(125).speeds.size(), 2U);  // 9.8 m/s is within 2 m/s of 8 and of 10
+}
+
 TEST(kitti, refuses_wrong_options) {
   const gslam::Trajectory some = made::trajectory(10);
   const gslam::PosePairs pairs = made::pairs(some, some);

@@ -249,6 +249,17 @@ TEST(time_offset, is_recovered) {
   }
 }
 
+TEST(time_offset, of_an_estimate_that_begins_late) {
+  const Trajectory reference = made::trajectory(9000, kSecond / 50);
+  std::vector<gslam::StampedPose> late;
+  for (std::size_t i = 5000; i < 7000; ++i) {
+    late.push_back({reference[i].stamp - 300 * kMilli, reference[i].pose});
+  }
+  const gslam::TimeOffset found = gslam::estimateTimeOffset(reference, Trajectory(late));
+  ASSERT_TRUE(found.is_valid) << found.reason;
+  EXPECT_NEAR(double(found.offset), 300e6, 1e5);
+}
+
 TEST(time_offset, of_clocks_that_share_no_time) {
   const Trajectory reference = made::trajectory(3000, kSecond / 50);
   const Trajectory estimate = made::trajectory(2000, kSecond / 50, 0);
