@@ -173,6 +173,30 @@ TEST(score, a_free_scale_is_the_one_with_which_most_is_right) {
   EXPECT_LT(most.value, 0.75);
 }
 
+// Two halves of a straight way whose scales hardly meet: 0.9 to 1.1 times each, 0.01 % in common.
+TEST(score, scales_that_hardly_meet_are_found) {
+  for (const double apart : {0.9999, 1.0001}) {
+    const double other = 1.1 / 0.9 * apart;
+    Trajectory reference, estimate;
+    for (std::int64_t i = 0; i <= 400; ++i) {
+      const double x = 0.05 * double(i);
+      reference.add(i * kSecond / 20, SE3d({}, {{x, 0, 0}}));
+      estimate.add(i * kSecond / 20, SE3d({}, {{x < 10 ? x : 10 + (x - 10) / other, 0, 0}}));
+    }
+    ScoreOptions options;
+    options.has_scale = true;
+    options.slot = kSecond / 20;
+    options.thresholds = {0.1};
+    const Score score = scoreOf(reference, estimate, options);
+    if (apart < 1) {
+      EXPECT_EQ(score.value, 1);
+      EXPECT_NEAR(score.levels[0].scale, 1.1, 1e-4);
+    } else {
+      EXPECT_LT(score.value, 0.6);
+    }
+  }
+}
+
 // No scale that is tried does better than the one that is found.
 TEST(score, no_other_scale_is_better) {
   const Trajectory reference = made::trajectory(400);
@@ -190,7 +214,7 @@ TEST(score, no_other_scale_is_better) {
                 }));
     EXPECT_EQ(fixed.levels[k].fraction, best.levels[k].fraction);
   }
-  for (double scale = 0.5; scale < 2; scale *= 1.01) {
+  for (double scale = 0.5; scale<2; scale *= scale> 0.97 && scale < 1.03 ? 1.0002 : 1.02) {
     const Score fixed = scoreOf(reference, made::changed(estimate, [&](const SE3d& pose) {
                                   return SE3d(pose.rotation(), scale * pose.translation());
                                 }));
