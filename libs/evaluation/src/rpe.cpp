@@ -50,7 +50,8 @@ std::vector<double> marksOf(const PosePairs& pairs, DeltaUnit unit) {
   if (unit == DeltaUnit::metres) return evaluation::lengthsOf(pairs);
   std::vector<double> marks(pairs.size(), 0);
   for (std::size_t i = 1; i < pairs.size(); ++i) {
-    const std::int64_t step = pairs.stamps[i] - pairs.stamps[i - 1];
+    // Ascending, so that the difference fits, however far apart.
+    const std::uint64_t step = std::uint64_t(pairs.stamps[i]) - std::uint64_t(pairs.stamps[i - 1]);
     marks[i] =
         marks[i - 1] + (unit == DeltaUnit::seconds
                             ? 1e-9 * double(step)

@@ -239,8 +239,8 @@ TimeOffset estimateTimeOffset(const Trajectory& reference, const Trajectory& est
   // Times count from the begin of each.
   const Way a(reference), b(estimate);
   const double apart = secondsFrom(estimate.front().stamp, reference.front().stamp);
-  if (std::fabs(apart) > kFarthest) {
-    result.reason = "the two begin centuries apart";
+  if (std::fabs(apart) > kFarthest || a.last() > kFarthest || b.last() > kFarthest) {
+    result.reason = "the two reach over centuries";
     return result;
   }
   const bool overlaps = apart <= b.last() && -apart <= a.last();

@@ -194,6 +194,12 @@ TEST(rpe, consecutive_ways_join) {
   EXPECT_EQ(rangesOf(made::pairs(tenths, tenths), parseRpe("1s"))[0].last, 10U);
 }
 
+TEST(rpe, survives_the_ends_of_time) {
+  Trajectory far;
+  for (const std::int64_t stamp : {INT64_MIN, std::int64_t(0), INT64_MAX}) far.add(stamp, SE3d());
+  EXPECT_EQ(rangesOf(made::pairs(far, far), parseRpe("1s")).size(), 2U);
+}
+
 TEST(rpe, ways_that_are_too_long_are_none) {
   const PosePairs pairs = somePairs(20);
   for (const char* const text : {"20f", "20f:all", "1000m", "1000m:all", "99s", "9999deg:all"}) {

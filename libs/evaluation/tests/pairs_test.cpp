@@ -283,7 +283,15 @@ TEST(time_offset, is_refused_where_there_is_none_to_find) {
   EXPECT_FALSE(still.is_valid) << still.offset;
   EXPECT_NE(still.reason.find("do not vary"), std::string::npos) << still.reason;
   EXPECT_FALSE(gslam::estimateTimeOffset(made::trajectory(5), made::trajectory(5)).is_valid);
-  EXPECT_FALSE(gslam::estimateTimeOffset(at({INT64_MIN, 0}), made::trajectory(50)).is_valid);
+  std::vector<std::int64_t> far = {INT64_MIN};
+  for (std::int64_t i = 0; i < 50; ++i) far.push_back(i * kSecond / 20);
+  for (const bool is_estimate : {false, true}) {
+    const gslam::TimeOffset none = is_estimate
+                                       ? gslam::estimateTimeOffset(made::trajectory(50), at(far))
+                                       : gslam::estimateTimeOffset(at(far), made::trajectory(50));
+    EXPECT_FALSE(none.is_valid);
+    EXPECT_NE(none.reason.find("centuries"), std::string::npos) << none.reason;
+  }
   // Two ways that have nothing in common.
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
