@@ -150,6 +150,29 @@ class Text(Folder):
         self.assertEqual(result["association"]["pairs"], 600)
 
 
+class Formats(Folder):
+    def test_euroc(self):
+        lines = ["#timestamp,p_x,p_y,p_z,q_w,q_x,q_y,q_z,v_x,v_y,v_z"]
+        for t in stamps(600):
+            x, y, z, heading = pose(t - 1000)
+            lines.append(f"{round(t * 1e9)},{x:.9f},{y:.9f},{z:.9f},{math.cos(heading / 2):.12f},0,0,"
+                         f"{math.sin(heading / 2):.12f},1,2,3")
+        # Stamps of 1000 s are too small for nanoseconds since 1970: the format is said.
+        ref = self.write("data.csv", "\n".join(lines) + "\n")
+        result = self.figures("--ref", ref, "--ref-format", "euroc", "--est", self.ref, "--align",
+                              "none")
+        self.assertEqual(result["protocol"]["reference"]["format"], "euroc")
+        self.assertEqual(result["association"]["pairs"], 600)
+        self.assertLess(result["ape"]["translation"]["max"], 1e-6)
+        self.assertLess(result["ape"]["rotation_deg"]["max"], 1e-5)
+
+    def test_a_wrong_format_is_said(self):
+        result = evaluate("--ref", self.ref, "--est", self.ref, "--est-format", "kitti")
+        self.check(result, 1, err="ref.txt:2")
+        result = evaluate("--ref", self.ref, "--est", self.ref, "--est-format", "map")
+        self.check(result, 1, err="ref.txt")
+
+
 class WrongUse(Folder):
     def fails(self, *arguments, status=2, err):
         result = self.check(evaluate(*arguments), status, err=err)
