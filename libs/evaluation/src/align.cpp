@@ -207,7 +207,7 @@ AlignmentOptions parseAlignment(const std::string& text) {
 }
 
 std::string alignmentText(const AlignmentOptions& options) {
-  const std::string name = alignmentMethodName(options.method);
+  std::string name = alignmentMethodName(options.method);
   if (options.first == 0) return name;
   const std::string count = std::to_string(options.first);
   return options.method == AlignmentMethod::se3 ? "first:" + count : name + ", first " + count;

@@ -90,7 +90,8 @@ KittiErrors kittiErrors(const PosePairs& pairs, const KittiOptions& options, dou
         meanOf(segments, length, [length](const Segment& s) { return s.length == length; });
     if (bin.count > 0) result.lengths.push_back(bin);
   }
-  for (double speed = 2; speed < 25; speed += 2) {
+  for (int even = 2; even < 25; even += 2) {
+    const double speed = even;
     const KittiBin bin = meanOf(
         segments, speed, [speed](const Segment& s) { return std::fabs(s.speed - speed) < 2; });
     if (bin.count > 2) result.speeds.push_back(bin);

@@ -134,7 +134,9 @@ class OffsetSearch {
 
   double best(double from, double to, double step, double cell) const {
     double result = 0, most = -2;
-    for (double offset = from; offset <= to; offset += step) {
+    const auto steps = static_cast<std::size_t>((to - from) / step);
+    for (std::size_t i = 0; i <= steps; ++i) {
+      const double offset = from + double(i) * step;
       const double value = correlation(offset, cell);
       if (value > most) most = value, result = offset;
     }
