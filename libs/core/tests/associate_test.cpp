@@ -1,5 +1,5 @@
 #include <gslam/base/error.h>
-#include <gslam/datasets/associate.h>
+#include <gslam/core/associate.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
