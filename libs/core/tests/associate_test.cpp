@@ -93,6 +93,12 @@ TEST(associate, takes_long_lists) {
   EXPECT_EQ(associate(a, b, 20000000).size(), 200000U);
 }
 
+TEST(associate, refuses_a_tolerance_that_takes_all_memory) {
+  Stamps many;
+  for (std::int64_t i = 0; i < 100000; ++i) many.push_back(i);
+  EXPECT_THROW(associate(many, many, 1000000), gslam::ArgumentError);
+}
+
 TEST(associate, refuses_what_is_not_ascending) {
   EXPECT_THROW(associate(Stamps{1, 1}, Stamps{}, 0), gslam::ArgumentError);
   EXPECT_THROW(associate(Stamps{}, Stamps{2, 1}, 0), gslam::ArgumentError);

@@ -28,7 +28,8 @@ inline namespace v1 {
 /// @param a, b       nanoseconds, ascending, none twice
 /// @param tolerance  most nanoseconds between the two of a pair, 0 or more
 /// @return ascending
-/// @throws ArgumentError when a list is not ascending, or the tolerance negative
+/// @throws ArgumentError when a list is not ascending, the tolerance negative, or more than 2^28
+///   pairs are within it
 inline std::vector<StampPair> associate(Span<const std::int64_t> a, Span<const std::int64_t> b,
                                         std::int64_t tolerance) {
   detail::checkAscending("a", a);

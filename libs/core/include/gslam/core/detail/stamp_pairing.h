@@ -58,8 +58,10 @@ struct PairingRow {
 class StampPairing {
  public:
   using Stamps = Span<const std::int64_t>;
+  static constexpr std::size_t kMostSteps = std::size_t(1) << 28;  // bytes, too
 
   StampPairing(Stamps a, Stamps b, std::uint64_t tolerance) : a_(a), b_(b), tolerance_(tolerance) {
+    findBands();
     PairingRow row;
     row.merits.resize(1);
     for (std::size_t i = 0; i < a.size(); ++i) row = nextRow(row, i);
@@ -93,19 +95,31 @@ class StampPairing {
     return a < b ? std::uint64_t(b) - std::uint64_t(a) : std::uint64_t(a) - std::uint64_t(b);
   }
 
+  void findBands() {
+    std::size_t begin = 0, end = 0, steps = 0;
+    bands_.reserve(a_.size());
+    for (const std::int64_t stamp : a_) {
+      while (begin < b_.size() && b_[begin] < stamp && distance(stamp, b_[begin]) > tolerance_) {
+        ++begin;
+      }
+      end = std::max(begin, end);
+      while (end < b_.size() && (b_[end] <= stamp || distance(stamp, b_[end]) <= tolerance_)) {
+        ++end;
+      }
+      bands_.push_back({begin, end, steps});
+      steps += end - begin;
+      if (steps > kMostSteps) {
+        throw ArgumentError("tolerance",
+                            "has more than 2^28 pairs within it, expected a smaller one");
+      }
+    }
+    steps_.reserve(steps);
+  }
+
   PairingRow nextRow(const PairingRow& before, std::size_t i) {
     PairingRow row;
-    row.begin = before.begin;
-    while (row.begin < b_.size() && b_[row.begin] < a_[i] &&
-           distance(a_[i], b_[row.begin]) > tolerance_) {
-      ++row.begin;
-    }
-    row.end = std::max(before.end, row.begin);
-    while (row.end < b_.size() &&
-           (b_[row.end] <= a_[i] || distance(a_[i], b_[row.end]) <= tolerance_)) {
-      ++row.end;
-    }
-    bands_.push_back({row.begin, row.end, steps_.size()});
+    row.begin = bands_[i].begin;
+    row.end = bands_[i].end;
     row.merits.push_back(before.upTo(row.begin));
     for (std::size_t j = row.begin; j < row.end; ++j) {
       row.merits.push_back(best(before, row.merits.back(), i, j));
