@@ -181,6 +181,15 @@ TEST(readSequences, TumSaysWhereItMayBeIcl) {
   EXPECT_FALSE(says(other->info().remarks, "icl:"));
 }
 
+TEST(readSequences, ListsThatCannotBeReadAreOfTum) {
+  for (const char* text : {"", "\xFF\xFE", ",", "0", "0,,", "0 \n", "# 0 rgb/0.png\n"}) {
+    const TempFolder folder;
+    writeText(folder / "rgb.txt", text);
+    EXPECT_EQ(gslam::datasetFormatOf(folder.path()), "tum");
+    EXPECT_TRUE(has(errorOf(gslam::tumFactory(), folder.path()), "rgb.txt")) << text;
+  }
+}
+
 TEST(readSequences, TumWithAssociationsStaysTum) {
   const TempFolder folder;
   exportTo(folder / "tum", "tum");

@@ -206,8 +206,7 @@ class DroneMap {
 
 std::unique_ptr<Dataset> openDroneMap(const std::string& path, const Svar& parameters) {
   const std::string ending = ".npudronemap";
-  const bool is_file = path.size() > ending.size() &&
-                       path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
+  const bool is_file = endsWith(path, ending);
   const std::string folder = is_file ? joined(folderOf(path), "") : path;
   std::shared_ptr<const FileTree> tree = FileTree::open(folder.empty() ? "." : folder);
   const Layout& layout = layoutOf("dronemap");

@@ -134,8 +134,8 @@ class TumReader {
       if (!is_frame || image.stamp / kSecond >= 1000000) return;
     }
     sequence_.remarks.say(
-        "stamps are numbers of frames, as ICL-NUIM's, whose poses are mirrored: "
-        "icl:" +
+        "all stamps are whole seconds: if they are numbers of frames of ICL-NUIM, whose poses are "
+        "mirrored, icl:" +
         tree_->root() + " reads it so");
   }
 

@@ -56,14 +56,18 @@ bool isKittiRaw(Files tree, Folder folder) {
 // ICL-NUIM for readers of TUM RGB-D: "0 rgb/0.png". TUM's names have decimals.
 bool listsFrames(Files tree, Folder list) {
   constexpr std::size_t kHead = 4096;
-  const std::vector<std::uint8_t> head = tree.read(list, kHead);
-  const std::string text(head.begin(), head.end()), source = tree.nameOf(list);
-  detail::FieldReader in(text, source, "a frame and its image");
-  if (!in.nextLine()) return false;
-  const std::string first = in.word();
-  if (first != "0" && first != "1") return false;
-  in.skipWord();
-  return !in.isLineEnd() && in.word() == "rgb/" + first + ".png";
+  try {
+    const std::vector<std::uint8_t> head = tree.read(list, kHead);
+    const std::string text(head.begin(), head.end()), source = tree.nameOf(list);
+    detail::FieldReader in(text, source, "a frame and its image");
+    if (!in.nextLine()) return false;
+    const std::string first = in.word();
+    if (first != "0" && first != "1") return false;
+    in.skipWord();
+    return !in.isLineEnd() && in.word() == "rgb/" + first + ".png";
+  } catch (const Error&) {
+    return false;  // its reader will say what is wrong
+  }
 }
 
 bool isIcl(Files tree, Folder folder) {
