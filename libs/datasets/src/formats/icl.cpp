@@ -8,7 +8,6 @@
 #include <gslam/core/trajectory_file.h>
 #include <gslam/datasets/formats.h>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>

@@ -9,7 +9,6 @@
 #include <gslam/core/detail/shared_library.h>
 #include <gslam/datasets/formats.h>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>

@@ -60,7 +60,8 @@ GSLAM_DATASETS_EXPORT DatasetFactory kittiFactory();
 /// samples and satellite positions. World: x east, y north, z up from the first position on, in the
 /// devkit's Mercator projection. All of oxts/data is read when it is opened.
 ///
-/// * `sequence`, `cameras`, `stereo`: as of `kitti`
+/// * `sequence`: the drive, such as 5 or "2011_09_26_drive_0005_sync"; null: the only one
+/// * `cameras`, `stereo`: as of `kitti`
 /// * `tolerance`: most seconds between images of a frame in an _extract drive
 GSLAM_DATASETS_EXPORT DatasetFactory kittiRawFactory();
 /// `tum`: TUM RGB-D. Body: the colour camera. Without depth.txt it has one camera.
