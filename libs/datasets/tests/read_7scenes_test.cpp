@@ -171,7 +171,9 @@ TEST(read7Scenes, ImagesThatAreMissingOrBroken) {
   EXPECT_TRUE(
       says(open(sevenScenesFactory(), folder.path(), Svar())->info().remarks, "no depth images"));
   writeText(folder / "camera-intrinsics.txt", "16 1 7 0 17 6 0 0 1");
-  EXPECT_TRUE(has(errorOf(sevenScenesFactory(), folder.path()), "camera-intrinsics.txt"));
+  EXPECT_TRUE(has(errorOf(sevenScenesFactory(), folder.path()), "camera-intrinsics.txt:1"));
+  writeText(folder / "camera-intrinsics.txt", "-585 0 7 0 17 6 0 0 1");
+  EXPECT_TRUE(has(errorOf(sevenScenesFactory(), folder.path()), "camera-intrinsics.txt:1"));
   const TempFolder empty;
   EXPECT_TRUE(has(errorOf(sevenScenesFactory(), empty.path()), "has no sequence"));
 }

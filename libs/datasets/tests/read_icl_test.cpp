@@ -175,6 +175,9 @@ TEST(readIcl, FilesThatAreWrong) {
   EXPECT_TRUE(has(error(), "livingRoom0.gt.freiburg:2"));
   writeText(folder / "livingRoom0.gt.freiburg", "1 0 0 0 0 0 inf 1\n");
   EXPECT_TRUE(has(error(), "livingRoom0.gt.freiburg:1:13"));
+  writeText(folder / "livingRoom0.gt.freiburg", "1 0 0 0 0 0 0 1\n# x\n 1.5 0 0 0 0 0 0 1\n");
+  EXPECT_TRUE(has(error(), "livingRoom0.gt.freiburg:3:2") && has(error(), "no number of a frame"))
+      << error();
   fs::remove(folder / "livingRoom0.gt.freiburg");
   EXPECT_TRUE(says(open(iclFactory(), folder.path())->info().remarks, "no ground truth"));
   writeText(folder / "associations.txt", "0 depth/0.png 0\n");
@@ -296,6 +299,10 @@ TEST(readIcl, OriginalFilesThatAreWrong) {
   EXPECT_TRUE(has(error(), "scene_00_0010.txt:1: expected a line cam_dir"));
   fs::remove(camera);
   EXPECT_TRUE(says(open(iclFactory(), folder.path())->info().remarks, "scene_00_0010.txt"));
+  const std::string first = folder / "scene_00_0009.txt", good = export_case::readText(first);
+  writeText(first, "cam_right = [1e-320, 0, 0]';\n" + good);
+  EXPECT_TRUE(has(error(), "scene_00_0009.txt: is no camera")) << error();
+  writeText(first, good);
   writeText(folder / "scene_00_0011.depth", "1 2 3\n4");
   const auto dataset = open(iclFactory(), folder.path());
   dataset->seek(2);

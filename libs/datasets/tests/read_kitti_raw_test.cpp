@@ -55,7 +55,12 @@ std::string clock(int i, const char* decimals) {
 class Drive {
  public:
   explicit Drive(const std::string& kind = "sync") : name("2011_09_26_drive_0001_" + kind) {
-    const bool is_raw = kind == "extract";
+    writeDrive(kind == "extract");
+    writeText(date("calib_cam_to_cam.txt"), kCamToCam);
+    writeText(date("calib_velo_to_cam.txt"), kVeloToCam);
+    writeText(date("calib_imu_to_velo.txt"), kImuToVelo);
+  }
+  void writeDrive(bool is_raw) const {
     std::string times[2], oxts;
     for (int i = 0; i < 4; ++i) {
       const std::string number = padded(std::size_t(i), 10);
@@ -73,9 +78,10 @@ class Drive {
     writeText(drive("image_01/timestamps.txt"), times[1]);
     writeText(drive("oxts/timestamps.txt"), oxts);
     fs::create_directories(drive("velodyne_points/data"));
-    writeText(date("calib_cam_to_cam.txt"), kCamToCam);
-    writeText(date("calib_velo_to_cam.txt"), kVeloToCam);
-    writeText(date("calib_imu_to_velo.txt"), kImuToVelo);
+  }
+  void rename(const std::string& other) {
+    fs::rename(path(), date(other));
+    name = other;
   }
   std::string date(const std::string& file) const { return folder / ("2011_09_26/" + file); }
   std::string drive(const std::string& file) const { return date(name + "/" + file); }
@@ -101,7 +107,7 @@ TEST(readKittiRaw, StampsAreExact) {
   }
   writeText(drive.drive("image_00/timestamps.txt"),
             "1970-01-01 00:00:00.000000001\r\n2000-02-29 23:59:59\r\n"
-            "2000-03-01 00:00:00.5\r\n2100-12-31 12:00:00.0\r\n");
+            "2000-03-01 00:00:00.5\r\n2036-12-31 12:00:00.0\r\n");
   fs::remove_all(drive.drive("oxts"));
   const auto dataset = open(kittiRawFactory(), drive.path());
   const auto frames = allFrames(*dataset);
@@ -109,7 +115,12 @@ TEST(readKittiRaw, StampsAreExact) {
   EXPECT_EQ(frames[0]->stamp, 1);  // the others by `date -u -d ... +%s`
   EXPECT_EQ(frames[1]->stamp, 951868799000000000);
   EXPECT_EQ(frames[2]->stamp, 951868800500000000);
-  EXPECT_EQ(frames[3]->stamp, 4133937600000000000);
+  EXPECT_EQ(frames[3]->stamp, 2114337600000000000);
+  writeText(drive.drive("image_00/timestamps.txt"),
+            "2096-02-29 12:00:00\n2100-02-28 23:59:59\n2100-03-01 00:00:00\n");
+  const auto later = open(kittiRawFactory(), drive.path());
+  EXPECT_EQ(later->info().first_stamp, 3981355200000000000);
+  EXPECT_EQ(later->info().last_stamp, 4107542400000000000);  // there is no 2100-02-29
 }
 
 TEST(readKittiRaw, RectifiedCamerasOnTheImu) {
@@ -155,6 +166,68 @@ TEST(readKittiRaw, RawCamerasOfExtracts) {
   EXPECT_LT((left.T_body_camera.inverse() * X - in_left).norm(), 1e-14);
   EXPECT_LT((right.T_body_camera.inverse() * X - in_right).norm(), 1e-14);
   EXPECT_TRUE(has(drive.error(Svar::object({{"tolerance", 0.001}})), "no frame"));
+}
+
+TEST(readKittiRaw, SizesTellWhatNamesDoNot) {
+  Drive raw("extract"), synced("sync");
+  EXPECT_EQ(open(kittiRawFactory(), raw.path())->info().licence, "CC BY-NC-SA 3.0");
+  raw.rename("renamed");
+  synced.rename("renamed");
+  const auto extract = open(kittiRawFactory(), raw.path());
+  EXPECT_EQ(extract->info().sensors.cameras[1].camera.modelName(), "radtan");
+  EXPECT_FALSE(says(extract->info().remarks, "as rare as images"));
+  EXPECT_EQ(extract->info().licence, "");
+  // Its images go by their stamps, which are 1.5 ms apart.
+  EXPECT_TRUE(has(raw.error(Svar::object({{"tolerance", 0.001}})), "no frame"));
+  const auto rectified = open(kittiRawFactory(), synced.path());
+  EXPECT_EQ(rectified->info().sensors.cameras[1].camera.modelName(), "pinhole");
+  EXPECT_TRUE(says(rectified->info().remarks, "as rare as images"));
+  EXPECT_EQ(synced.error(Svar::object({{"tolerance", 0.001}})), "");
+  EXPECT_FALSE(says(rectified->info().remarks, "taken to be; extracts"));
+}
+
+TEST(readKittiRaw, NamesThatSizesContradictAreSaid) {
+  for (const bool is_raw : {false, true}) {
+    const Drive drive(is_raw ? "sync" : "extract");
+    fs::remove_all(drive.path());
+    drive.writeDrive(is_raw);
+    const auto dataset = open(kittiRawFactory(), drive.path());
+    EXPECT_TRUE(says(dataset->info().remarks, "they go by their size"));
+    EXPECT_EQ(dataset->info().sensors.cameras[0].camera.modelName(), is_raw ? "radtan" : "pinhole");
+    EXPECT_TRUE(has(drive.error(Svar::object({{"tolerance", 0.001}})), "no frame"));
+  }
+}
+
+TEST(readKittiRaw, UnknownKindIsSaid) {
+  Drive drive;
+  drive.rename("renamed");
+  std::string text = kCamToCam;
+  for (const char* size : {"S_rect_00: 32 24", "S_rect_01: 32 24"}) {
+    const std::string raw = "S_0" + std::string(1, size[8]) + ": 40 30";
+    text.replace(text.find(raw), raw.size(), raw.substr(0, 6) + "32 24");
+  }
+  writeText(drive.date("calib_cam_to_cam.txt"), text);
+  const auto dataset = open(kittiRawFactory(), drive.path());
+  EXPECT_TRUE(says(dataset->info().remarks, "it is taken to be; extracts"));
+  EXPECT_EQ(dataset->info().sensors.cameras[0].camera.modelName(), "pinhole");
+}
+
+TEST(readKittiRaw, DrivesGoByTheNumberOfTheDrive) {
+  const Drive drive;
+  for (const char* other : {"2011_09_26_drive_0005_sync", "2011_09_28_drive_0009_sync",
+                            "2011_09_28_drive_0009_extract"}) {
+    fs::copy(drive.path(), drive.date(other), fs::copy_options::recursive);
+  }
+  const auto with = [](const Svar& wanted) { return Svar::object({{"sequence", wanted}}); };
+  for (const Svar& wanted : {Svar(5), Svar("0005"), Svar("2011_09_26_drive_0005_sync")}) {
+    EXPECT_EQ(open(kittiRawFactory(), drive.date(""), with(wanted))->info().name,
+              "2011_09_26_drive_0005_sync");
+  }
+  const auto error = [&](int wanted) {
+    return errorOf(kittiRawFactory(), drive.date(""), with(wanted));
+  };
+  EXPECT_TRUE(has(error(2011), "is '2011', which")) << error(2011);
+  EXPECT_TRUE(has(error(9), "drive_0009_extract, 2011_09_28_drive_0009_sync")) << error(9);
 }
 
 TEST(readKittiRaw, InertialSamplesAndPositions) {
@@ -239,6 +312,8 @@ TEST(readKittiRaw, CalibrationThatIsMissingOrWrong) {
   std::string text = whole;
   writeText(cameras, text.replace(text.find("S_rect_00: 32 24"), 16, "S_rect_00: 33 24"));
   EXPECT_TRUE(has(drive.error(), "but images are 32 x 24"));
+  writeText(cameras, ", 1 2\n" + whole);
+  EXPECT_TRUE(has(drive.error(), "calib_cam_to_cam.txt:1:1")) << drive.error();
   writeText(cameras, whole);
   writeText(drive.date("calib_velo_to_cam.txt"), "R: 2 0 0 0 1 0 0 0 1\nT: 0 0 0\n");
   EXPECT_TRUE(has(drive.error(), "calib_velo_to_cam.txt:1: R is no rotation"));
@@ -259,12 +334,22 @@ TEST(readKittiRaw, CalibrationThatIsMissingOrWrong) {
   EXPECT_TRUE(says(mono->info().remarks, "not calibrated"));
 }
 
+TEST(readKittiRaw, CamerasThatAreNoneAreErrorsWithTheirLine) {
+  const Drive drive("extract");
+  std::string text = kCamToCam;
+  text.replace(text.find("K_01: 23"), 8, "K_01: -3");
+  writeText(drive.date("calib_cam_to_cam.txt"), text);
+  EXPECT_TRUE(has(drive.error(), "calib_cam_to_cam.txt:12: is no camera")) << drive.error();
+}
+
 TEST(readKittiRaw, FilesThatAreWrong) {
   const Drive drive;
   const std::string stamps = drive.drive("image_00/timestamps.txt");
   const std::string whole = export_case::readText(stamps);
-  for (const char* line : {"2011-13-26 13:02:00.1", "2011-09-26", "2011-09-26 25:02:00.1",
-                           "2011-09-26 13:02:61.5", "2011-09-26T13:02:00.1", "1.5 2"}) {
+  for (const char* line :
+       {"2011-13-26 13:02:00.1", "2011-09-26", "2011-09-26 25:02:00.1", "2011-09-26 13:02:61.5",
+        "2011-02-31 13:02:00.1", "2011-02-29 13:02:00.1", "2011-04-31 13:02:00.1",
+        "2011-12-32 13:02:00.1", "2011-09-26T13:02:00.1", "1.5 2"}) {
     writeText(stamps, clock(0, ".1") + line + "\n");
     EXPECT_TRUE(has(drive.error(), "timestamps.txt:2:1")) << line << " " << drive.error();
   }

@@ -60,6 +60,7 @@ TEST(readKitti, RealStereo) {
   const auto dataset = open(kittiFactory(), root);
   const gslam::DatasetInfo& info = dataset->info();
   EXPECT_EQ(info.name, "06");
+  EXPECT_EQ(info.licence, "CC BY-NC-SA 3.0");
   EXPECT_EQ(info.frame_count, 51U);
   ASSERT_EQ(info.sensors.cameras.size(), 2U);
   for (const gslam::CameraSensor& camera : info.sensors.cameras) {

@@ -61,6 +61,8 @@ TEST(readStrecha, CamerasAreScaledToTheImages) {
   EXPECT_EQ(given->info().sensors.cameras[0].camera,
             gslam::Camera::fromParameters("pinhole", 16, 12, {13, 10.5, 7, 5}));
   EXPECT_TRUE(says(given->info().remarks, "differs from the cameras by up to 3"));
+  writeText(folder / "images/K.txt", "-13 0 7\r\n0 10.5 5\r\n0 0 1\r\n");
+  EXPECT_TRUE(has(errorOf(strechaFactory(), folder.path()), "K.txt:1"));
 }
 
 TEST(readStrecha, OtherPlacesAndArchives) {

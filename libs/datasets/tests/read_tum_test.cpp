@@ -127,6 +127,8 @@ TEST(readTum, DepthAndPosesFitTogether) {
     const Warp none = warp(a, b, SE3d());
     EXPECT_GT(right.points, 1000);
     EXPECT_LT(right.depth_error, 0.02);
+    EXPECT_LT(right.depth_error, 0.5 * none.depth_error) << i;
+    EXPECT_LT(right.depth_error, 0.5 * inverse.depth_error) << i;
     EXPECT_LT(right.grey_error, 0.6 * none.grey_error);
     EXPECT_LT(right.grey_error, 0.6 * inverse.grey_error);
     RecordProperty("frame" + std::to_string(i), std::to_string(right.depth_error) + " " +
@@ -154,6 +156,40 @@ TEST(readTum, CalibrationByName) {
             published({520.9, 521.0, 325.1, 249.7, 0.2312, -0.7849, -0.0033, -0.0001, 0.9172}));
   EXPECT_EQ(cameraOf("rgbd_dataset_freiburg3_office"), published({535.4, 539.2, 320.1, 247.6}));
   EXPECT_EQ(cameraOf("kitchen"), published({525, 525, 319.5, 239.5}));
+}
+
+TEST(readTum, TheRecordingIsBelievedBeforeTheFolder) {
+  const auto published = [](const std::string& folder, const std::string& recording) {
+    const TumFolder tum(recording);
+    const TempFolder around;
+    fs::copy(tum.path(), around / folder, fs::copy_options::recursive);
+    const auto dataset = open(tumFactory(), around / folder);
+    for (int i = 1; i <= 3; ++i) {
+      if (says(dataset->info().remarks, "published one of freiburg" + std::to_string(i))) return i;
+    }
+    EXPECT_TRUE(says(dataset->info().remarks, "a guess"));
+    EXPECT_EQ(dataset->info().licence, "");
+    return 0;
+  };
+  EXPECT_EQ(published("fr1_backup", "rgbd_dataset_freiburg3_office"), 3);
+  EXPECT_EQ(published("my_fr3", "kitchen"), 3);
+  EXPECT_EQ(published("fr2", "kitchen"), 2);
+  for (const char* name : {"fr10", "my_fr12", "freiburg11", "fr1234_x"}) {
+    EXPECT_EQ(published(name, "kitchen"), 0) << name;
+    EXPECT_EQ(published("x", name), 0) << name;
+  }
+  EXPECT_EQ(published("fr10_fr2", "kitchen"), 2);
+}
+
+TEST(readTum, WhatEth3dHasMoreIsSaid) {
+  const TumFolder tum;
+  const auto before = open(tumFactory(), tum.path());
+  EXPECT_FALSE(says(before->info().remarks, "was not read"));
+  writeText(tum / "imu.txt", "100.0 1 2 3 4 5 6\n");
+  fs::create_directories(tum / "rgb2");
+  const auto dataset = open(tumFactory(), tum.path());
+  EXPECT_TRUE(says(dataset->info().remarks, "imu.txt was not read"));
+  EXPECT_TRUE(says(dataset->info().remarks, "rgb2, the second colour camera, was not read"));
 }
 
 TEST(readTum, CalibrationByFileOrParameter) {
@@ -228,8 +264,10 @@ TEST(readTum, FilesThatAreWrong) {
   EXPECT_TRUE(says(open(tumFactory(), tum.path())->info().remarks, "has no pose"));
   fs::remove(tum / "groundtruth.txt");
   EXPECT_TRUE(says(open(tumFactory(), tum.path())->info().remarks, "no groundtruth.txt"));
-  writeText(tum / "accelerometer.txt", "100.0 1 2 3\n100.1 1 2\n");
-  EXPECT_TRUE(has(tum.error(), "accelerometer.txt:2"));
+  writeText(tum / "accelerometer.txt", "100.0 1 2 3\n100.1 1 2\n");  // which nobody gets
+  const auto faulty = open(tumFactory(), tum.path());
+  EXPECT_TRUE(says(faulty->info().remarks, "accelerometer.txt:2"));
+  EXPECT_EQ(faulty->info().frame_count, 4U);
   writeText(tum / "depth.txt", "100.0 rgb/100.0.png\n");
   EXPECT_TRUE(has(tum.error(), "rgb/100.0.png: is no depth image"));
   writeText(tum / "rgb.txt", "100.0\n");

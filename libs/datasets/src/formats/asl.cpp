@@ -148,16 +148,10 @@ Asl openAsl(const std::string& path, const Svar& parameters) {
   Asl asl;
   asl.parameters = aslParameters().merged(parameters);
   const std::shared_ptr<const FileTree> tree = FileTree::open(path);
-  const Place place = findFolder(*tree, 1, [](const FileTree& files, const std::string& folder) {
-    return isMav(files, joined(folder, "mav0")) || isMav(files, folder);
-  });
-  if (!place.is_found) {
-    throw FileError(tree->root(),
-                    "has no cam0/data.csv, expected mav0 with cam0, or a folder "
-                    "or archive around it");
-  }
-  // findFolder() meets the folder around mav0 before mav0.
-  asl.tree = below(tree, place.folder);
+  // The folder around mav0 is met before mav0.
+  asl.tree = below(tree, onlyFolder(*tree, "euroc",
+                                    "has no cam0/data.csv, expected mav0 with cam0, or a folder or "
+                                    "archive around it"));
   asl.mav = isMav(*asl.tree, "mav0") ? "mav0" : "";
   asl.sequence.info.name = sequenceName(*asl.tree);
   asl.cameras = wantedCameras(asl);

@@ -204,17 +204,13 @@ class DroneMap {
   Sequence sequence_;
 };
 
-bool hasSequence(const FileTree& tree, const std::string& folder) {
-  return tree.has(joined(folder, "trajectory.txt")) || tree.has(joined(folder, "frames.txt"));
-}
-
 std::unique_ptr<Dataset> openDroneMap(const std::string& path, const Svar& parameters) {
   const std::string ending = ".npudronemap";
-  const bool is_file = path.size() > ending.size() &&
-                       path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
+  const bool is_file = endsWith(path, ending);
   const std::string folder = is_file ? joined(folderOf(path), "") : path;
   std::shared_ptr<const FileTree> tree = FileTree::open(folder.empty() ? "." : folder);
-  const Place place = findFolder(*tree, 1, hasSequence);
+  const Layout& layout = layoutOf("dronemap");
+  const Place place = findFolder(*tree, layout.depth, layout.is_enough);
   if (!place.is_found) {
     throw FileError(tree->root(), "has no trajectory.txt and no frames.txt, expected NPU DroneMap");
   }

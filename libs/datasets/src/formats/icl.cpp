@@ -8,13 +8,13 @@
 #include <gslam/core/trajectory_file.h>
 #include <gslam/datasets/formats.h>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "../calibration/formats.h"
 #include "../reading/file_tree.h"
 #include "../reading/image_list.h"
 #include "../reading/looks_like.h"
@@ -34,17 +34,10 @@ namespace {
 constexpr std::int64_t kRate = 30;
 constexpr double kDepthUnits = 5000;
 constexpr std::int64_t kSecond = 1000000000;
+constexpr std::int64_t kListTolerance = kSecond / 50;  // as TUM RGB-D's lists are associated
 
 bool beginsWith(const std::string& name, const std::string& begin) {
   return name.compare(0, begin.size(), begin) == 0;
-}
-
-bool isOriginal(const FileTree& tree, const std::string& folder) {
-  const std::vector<std::string>& files = tree.files(folder);
-  return std::any_of(files.begin(), files.end(), [](const std::string& name) {
-    return beginsWith(name, "scene_") && name.size() > 6 &&
-           name.compare(name.size() - 6, 6, ".depth") == 0;
-  });
 }
 
 // Whole numbers are those of frames, 30 of which make a second. They were read as seconds: 42 is
@@ -61,25 +54,19 @@ class IclReader {
  public:
   IclReader(const std::string& path, const Svar& parameters)
       : tree_(FileTree::open(path)), parameters_(parameters) {
-    const reading::Place place =
-        findFolder(*tree_, 1, [](const FileTree& tree, const std::string& folder) {
-          return isOriginal(tree, folder) || tree.has(joined(folder, "associations.txt"));
-        });
-    if (!place.is_found) {
-      throw FileError(tree_->root(),
-                      "has neither associations.txt nor scene_00_0000.depth, which icl has");
-    }
-    folder_ = place.folder;
+    folder_ = onlyFolder(*tree_, "icl",
+                         "has neither associations.txt nor rgb.txt nor scene_00_0000.depth, one of "
+                         "which icl has");
   }
 
   std::unique_ptr<Dataset> open() {
     DatasetInfo& info = sequence_.info;
     info.name = folder_.empty() ? tree_->baseName() : nameIn(folder_);
     info.format = "icl";
-    info.licence = "CC BY 3.0";
+    if (isPublished()) info.licence = "CC BY 3.0";
     info.body = "the camera";
     const bool wants_depth = parameters_.get<bool>("depth", true);
-    if (isOriginal(*tree_, folder_)) {
+    if (isIclOriginal(*tree_, folder_)) {
       sayFrames();
       openIclOriginal(sequence_, tree_, folder_, wants_depth, unitOf());
     } else {
@@ -91,6 +78,19 @@ class IclReader {
  private:
   std::string below(const std::string& name) const { return joined(folder_, name); }
   std::string nameBelow(const std::string& name) const { return tree_->nameOf(below(name)); }
+
+  // By the names of its scenes, and of files of poses that no calibration.txt is beside. Others
+  // have made data in the same layout.
+  bool isPublished() const {
+    std::string name;
+    for (const char c : sequence_.info.name) {
+      if (c != '_') name += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    }
+    if (name.find("livingroom") != name.npos || name.find("officeroom") != name.npos) return true;
+    if (tree_->has(below("calibration.txt"))) return false;
+    const std::vector<std::string> truth = truthFiles();
+    return !truth.empty() && (beginsWith(truth[0], "livingRoom") || beginsWith(truth[0], "traj"));
+  }
 
   double unitOf() const {
     const double unit = parameters_.get<double>("unit", 0.0);
@@ -104,22 +104,30 @@ class IclReader {
   }
 
   void openTumStyle(bool wants_depth) {
-    readAssociations();
+    const bool is_associated = tree_->has(below("associations.txt"));
+    const std::string list = is_associated ? "associations.txt" : "rgb.txt";
+    if (is_associated) {
+      readAssociations();
+    } else {
+      wants_depth = wants_depth && hasDepthList();
+      readLists(wants_depth);
+    }
+    countFrames(list);
     std::vector<std::vector<ListedImage>> lists = {rgb_};
-    tidy(lists[0], *tree_, below("associations.txt"), sequence_.remarks);
-    if (lists[0].empty())
-      throw FileError(nameBelow("associations.txt"), "lists no image that exists");
+    tidy(lists[0], *tree_, below(list), sequence_.remarks);
+    if (lists[0].empty()) throw FileError(nameBelow(list), "lists no image that exists");
     const ImageShape shape = shapeOfFile(*tree_, lists[0][0].file);
     const bool is_mirrored = addColour(shape);
     if (wants_depth) {
-      tidy(depth_, *tree_, below("associations.txt"), sequence_.remarks);
+      tidy(depth_, *tree_, below(is_associated ? list : "depth.txt"), sequence_.remarks);
       if (depth_.empty()) throw FileError(nameBelow("depth"), "has no image that is listed");
       std::vector<CameraSensor>& cameras = sequence_.info.sensors.cameras;
       cameras.push_back(
           depthOf(cameras[0], *tree_, depth_[0].file, depthFactorOf(parameters_, kDepthUnits)));
       lists.push_back(depth_);
     }
-    const std::vector<std::string> names = makeFrames(sequence_, lists, 0);
+    const std::int64_t tolerance = is_associated || counts_frames_ ? 0 : kListTolerance;
+    const std::vector<std::string> names = makeFrames(sequence_, lists, tolerance);
     loadImageFiles(sequence_, {tree_, names});
     readTruth(is_mirrored);
   }
@@ -142,11 +150,32 @@ class IclReader {
       const int rgb = beginsWith(files[0], "depth") ? 1 : 0;
       rgb_.push_back({stamps[rgb], below(files[rgb]), in.line(), 0});
       depth_.push_back({stamps[rgb], below(files[1 - rgb]), in.line(), 0});
-      counts_frames_ = counts_frames_ && isFrame(stamps[rgb]);
     }
-    if (rgb_.empty()) throw FileError(source, "lists no image");
+  }
+
+  bool hasDepthList() {
+    if (tree_->has(below("depth.txt"))) return true;
+    sequence_.remarks.say("there is no depth.txt, and so no depth");
+    return false;
+  }
+
+  // Lists as TUM RGB-D has them, which people made for its readers.
+  void readLists(bool wants_depth) {
+    rgb_ = readImageList(*tree_, below("rgb.txt"), StampUnit::seconds, folder_);
+    if (wants_depth) {
+      depth_ = readImageList(*tree_, below("depth.txt"), StampUnit::seconds, folder_);
+    }
+  }
+
+  void countFrames(const std::string& list) {
+    if (rgb_.empty()) throw FileError(nameBelow(list), "lists no image");
+    for (const std::vector<ListedImage>* images : {&rgb_, &depth_}) {
+      for (const ListedImage& image : *images) {
+        counts_frames_ = counts_frames_ && isFrame(image.stamp);
+      }
+    }
     if (!counts_frames_) {
-      sequence_.info.clock = "the seconds of associations.txt";
+      sequence_.info.clock = "the seconds of " + list;
       return;
     }
     sayFrames();
@@ -172,8 +201,9 @@ class IclReader {
     if (!(k[0] > 0) || k[1] == 0) {
       throw ParseError(nameBelow("calibration.txt"), 1, 0, "expected fx above 0 and an fy");
     }
-    const Camera camera = Camera::fromParameters("pinhole", shape.width, shape.height,
-                                                 {k[0], std::fabs(k[1]), k[2], k[3]});
+    const Camera camera =
+        calibration::makeCamera(nameBelow("calibration.txt"), 1, "pinhole",
+                                {shape.width, shape.height}, {k[0], std::fabs(k[1]), k[2], k[3]});
     return {camera, k[1] < 0};
   }
 
@@ -186,20 +216,32 @@ class IclReader {
     return calibration.is_mirrored && parameters_.get<bool>("mirror", true);
   }
 
-  std::string truthFile() {
-    const std::string ending = ".gt.freiburg";
+  std::vector<std::string> truthFiles() const {
     std::vector<std::string> found;
     for (const std::string& name : tree_->files(folder_)) {
-      const bool is_truth = name.size() > ending.size() &&
-                            name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
-      if (is_truth) found.push_back(name);
+      if (endsWith(name, ".gt.freiburg")) found.push_back(name);
     }
+    return found;
+  }
+
+  std::string truthFile() {
+    const std::vector<std::string> found = truthFiles();
     if (found.empty() && tree_->has(below("groundtruth.txt"))) return "groundtruth.txt";
     if (found.size() > 1) {
       sequence_.remarks.say("of " + countText(found.size(), "file") + " *.gt.freiburg " + found[0] +
                             " was read");
     }
     return found.empty() ? "" : found[0];
+  }
+
+  static void checkFrames(const std::string& text, const std::string& source) {
+    for (detail::FieldReader in(text, source, "a number of a frame"); in.nextLine();) {
+      const char* const at = in.place();
+      const std::string word = in.word();
+      if (isFrame(in.stamp("frames", 9))) continue;
+      in.fail(at, detail::quotedText(word) +
+                      " is no number of a frame, expected one, as images have them for stamps");
+    }
   }
 
   void readTruth(bool is_mirrored) {
@@ -211,7 +253,9 @@ class IclReader {
     TrajectoryFileOptions options;
     options.format = TrajectoryFormat::tum;
     options.may_be_empty = true;
-    const Trajectory read = parseTrajectory(tree_->text(below(file)), nameBelow(file), options);
+    const std::string text = tree_->text(below(file));
+    const Trajectory read = parseTrajectory(text, nameBelow(file), options);
+    if (counts_frames_) checkFrames(text, nameBelow(file));
     for (const StampedPose& pose : read) {
       const std::int64_t stamp = counts_frames_ ? stampOfFrame(pose.stamp) : pose.stamp;
       sequence_.info.ground_truth.add(stamp, is_mirrored ? mirroredInY(pose.pose) : pose.pose);

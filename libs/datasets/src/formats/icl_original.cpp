@@ -20,7 +20,9 @@
 #include <utility>
 #include <vector>
 
+#include "../calibration/formats.h"
 #include "../reading/decode.h"
+#include "../reading/sort_unique.h"
 #include "icl_mirror.h"
 #include "number_file.h"
 #include "sequences.h"
@@ -109,22 +111,17 @@ std::vector<OriginalFrame> listFrames(const FileTree& tree, const std::string& f
   std::vector<OriginalFrame> frames;
   for (const std::string& name : tree.files(folder)) {
     OriginalFrame frame;
-    const bool is_image = name.compare(0, 6, "scene_") == 0 && name.size() > 10 &&
-                          name.compare(name.size() - 4, 4, ".png") == 0;
+    const bool is_image =
+        name.compare(0, 6, "scene_") == 0 && name.size() > 10 && endsWith(name, ".png");
     if (!is_image || !frameNumber(name.substr(0, name.size() - 4), frame.number)) continue;
     frame.base = joined(folder, name.substr(0, name.size() - 4));
     frames.push_back(std::move(frame));
   }
-  const auto isBefore = [](const OriginalFrame& a, const OriginalFrame& b) {
-    return a.number < b.number;
-  };
-  std::stable_sort(frames.begin(), frames.end(), isBefore);
-  const auto isTwin = [&remarks](const OriginalFrame& a, const OriginalFrame& b) {
-    if (a.number != b.number) return false;
-    remarks.skip("images whose number another one has", b.base);
-    return true;
-  };
-  frames.erase(std::unique(frames.begin(), frames.end(), isTwin), frames.end());
+  sortUnique(
+      frames, [](const OriginalFrame& frame) { return frame.number; },
+      [&remarks](const OriginalFrame& twin) {
+        remarks.skip("images whose number another one has", twin.base);
+      });
   return frames;
 }
 
@@ -166,7 +163,6 @@ class OriginalReader {
   }
 
   void readPoses() {
-    bool has_camera = false;
     for (const OriginalFrame& frame : frames_) {
       const std::int64_t stamp = stampAtRate(frame.number, kRate);
       sequence_.stamps.push_back(stamp);
@@ -175,8 +171,10 @@ class OriginalReader {
         continue;
       }
       const PovCamera camera = readPovCamera(*tree_, frame.base + ".txt", unit_);
-      if (!has_camera) camera_ = camera;
-      has_camera = true;
+      if (camera_file_.empty()) {
+        camera_ = camera;
+        camera_file_ = frame.base + ".txt";
+      }
       sequence_.info.ground_truth.add(stamp, camera.T_world_camera);
     }
   }
@@ -184,13 +182,14 @@ class OriginalReader {
   void loadColour() {
     const ImageShape shape = shapeOfFile(*tree_, frames_[0].base + ".png");
     const double width = shape.width, height = shape.height;
-    const bool is_known = camera_.fx_by_width > 0;
+    const bool is_known = !camera_file_.empty();
     if (!is_known)
       sequence_.remarks.say("the calibration is the published one, 481.2 480 319.5 239.5");
     const double fx = (is_known ? camera_.fx_by_width : 481.2 / 640) * width;
     const double fy = (is_known ? camera_.fy_by_height : 1) * height;
-    const Camera camera = Camera::fromParameters("pinhole", shape.width, shape.height,
-                                                 {fx, fy, (width - 1) / 2, (height - 1) / 2});
+    const Camera camera = calibration::makeCamera(tree_->nameOf(camera_file_), 0, "pinhole",
+                                                  {shape.width, shape.height},
+                                                  {fx, fy, (width - 1) / 2, (height - 1) / 2});
     sequence_.info.sensors.cameras.push_back(cameraOf("rgb", camera));
     ImageFiles files;
     files.tree = tree_;
@@ -217,6 +216,7 @@ class OriginalReader {
   double unit_;
   std::vector<OriginalFrame> frames_;
   PovCamera camera_;
+  std::string camera_file_;  // that it is of; "": there is none
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "../reading/sort_unique.h"
 #include "sequences.h"
 
 namespace gslam {
@@ -81,18 +82,11 @@ std::vector<NumberedFile> numberedFiles(const FileTree& tree, const std::string&
       remarks.skip("files without a number in their names", joined(folder, name));
     }
   }
-  const auto isBefore = [](const NumberedFile& x, const NumberedFile& y) {
-    return x.number < y.number;
-  };
-  if (!std::is_sorted(files.begin(), files.end(), isBefore)) {
-    std::stable_sort(files.begin(), files.end(), isBefore);
-  }
-  const auto isTwin = [&remarks](const NumberedFile& a, const NumberedFile& b) {
-    if (a.number != b.number) return false;
-    remarks.skip("files whose number another one has", b.name);
-    return true;
-  };
-  files.erase(std::unique(files.begin(), files.end(), isTwin), files.end());
+  sortUnique(
+      files, [](const NumberedFile& file) { return file.number; },
+      [&](const NumberedFile& twin) {
+        remarks.skip("files whose number another one has", twin.name);
+      });
   return files;
 }
 

@@ -64,8 +64,8 @@ bool readDate(const std::string& text, std::int64_t& days) {
                        readDigits(text, 0, 4, year) && readDigits(text, 5, 2, month) &&
                        readDigits(text, 8, 2, day);
   days = is_date ? daysOf(year, month, day) : 0;
-  return is_date && year >= 1970 && year < 2262 && month >= 1 && month <= 12 && day >= 1 &&
-         day <= 31;
+  if (!is_date || year < 1970 || year >= 2262 || month < 1 || month > 12 || day < 1) return false;
+  return days < (month == 12 ? daysOf(year + 1, 1, 1) : daysOf(year, month + 1, 1));
 }
 
 bool readTime(const std::string& text, std::int64_t& nanoseconds) {

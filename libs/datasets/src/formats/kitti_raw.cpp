@@ -9,7 +9,6 @@
 #include <gslam/core/detail/shared_library.h>
 #include <gslam/datasets/formats.h>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -20,6 +19,7 @@
 #include "../reading/image_list.h"
 #include "../reading/looks_like.h"
 #include "../reading/sequence.h"
+#include "../reading/sort_unique.h"
 #include "kitti_files.h"
 #include "kitti_oxts.h"
 #include "kitti_raw_calibration.h"
@@ -33,36 +33,47 @@ namespace {
 const char* const kCalibration = "calib_cam_to_cam.txt";
 
 bool isTextName(const std::string& name) {
-  return name.size() > 4 && name.compare(name.size() - 4, 4, ".txt") == 0;
+  return endsWith(name, ".txt");
 }
 
 std::string imageFolder(std::size_t camera) {
   return "image_0" + std::to_string(camera);
 }
 
-bool isDrive(const FileTree& tree, const std::string& folder) {
-  for (std::size_t i = 0; i < 4; ++i) {
-    if (tree.hasFolder(joined(folder, imageFolder(i) + "/data"))) return true;
+bool contains(const std::string& text, const char* words) {
+  return text.find(words) != std::string::npos;
+}
+
+// "2011_09_26_drive_0001...", as all that were published are named.
+bool isPublishedName(const std::string& name) {
+  const std::string like = "2011_dd_dd_drive_dddd";
+  for (std::size_t i = 0; i < like.size(); ++i) {
+    const char c = i < name.size() ? name[i] : '\0';
+    const bool is_digit = c >= '0' && c <= '9';
+    const bool wants_digit = like[i] == 'd' && (i < 11 || i > 15);
+    if (wants_digit ? !is_digit : c != like[i]) return false;
   }
-  return false;
+  return true;
 }
 
 class KittiRawReader {
  public:
   KittiRawReader(const std::string& path, const Svar& parameters)
       : tree_(FileTree::open(path)), parameters_(parameters) {
-    folder_ = chooseSequence(
-        *tree_, 2, [this](const std::string& folder) { return isDrive(*tree_, folder); },
-        parameters, "a drive, a folder with image_00/data");
+    folder_ = chooseSequence(*tree_, "kittiraw", parameters, "a drive, a folder with image_00/data",
+                             "drive_");
     sequence_.info.name = folder_.empty() ? tree_->baseName() : nameIn(folder_);
   }
 
   std::unique_ptr<Dataset> open() {
     DatasetInfo& info = sequence_.info;
     info.format = "kittiraw";
-    info.licence = "CC BY-NC-SA 3.0";
+    if (isPublishedName(info.name)) info.licence = "CC BY-NC-SA 3.0";
     info.clock = "date and time of the recording computer, counted as if they were UTC";
     listImages();
+    findCalibration();
+    decideSynced();
+    stampImages();
     calibrate();
     loadImageFiles(sequence_, {tree_, makeFrames(sequence_, lists_, is_synced_ ? 0 : tolerance())});
     readOxtsFolder();
@@ -83,23 +94,52 @@ class KittiRawReader {
                         "is " + std::to_string(seconds) + ", expected 0 to 10 seconds");
   }
 
-  // Drives whose names say nothing are taken for the usual ones.
-  bool isNamedSynced() const {
+  // Drives are synced and rectified, or neither. Their names say which, where nobody renamed them,
+  // and so does the size of images, where rectification changed that.
+  void decideSynced() {
     const std::string& name = sequence_.info.name;
-    return name.find("extract") == std::string::npos && name.find("unsync") == std::string::npos;
+    const bool is_named_raw = contains(name, "extract") || contains(name, "unsync");
+    const bool is_named = is_named_raw || contains(name, "sync");
+    is_synced_ = is_rectified_ = !is_named_raw;
+    const bool is_known = lookAtSize();
+    if (!is_named) is_synced_ = is_rectified_;
+    if (!is_named && !is_known) {
+      sequence_.remarks.say(
+          "neither the name nor the size of images says whether the drive is synced: it is taken "
+          "to be; extracts have 'extract' in their names");
+    }
+    if (is_named && is_rectified_ != is_synced_) {
+      sequence_.remarks.say(std::string("the name says that images are ") +
+                            (is_synced_ ? "" : "not ") + "synced and rectified, their size that " +
+                            "they are " + (is_rectified_ ? "" : "not ") +
+                            "rectified: they go by their size, and are paired by their stamps");
+      is_synced_ = false;
+    }
+  }
+
+  // @return whether the size of the first camera's images tells whether they are rectified
+  bool lookAtSize() {
+    if (calibration_ == nullptr) return false;
+    const ImageShape shape = shapeOfFile(*tree_, images_[0][0].name);
+    const bool if_likely = calibration_->isRectified(cameras_[0], shape, true);
+    if (if_likely != calibration_->isRectified(cameras_[0], shape, false)) return false;
+    is_rectified_ = if_likely;
+    return true;
   }
 
   void listImages() {
     std::vector<std::string> folders;
     for (std::size_t i = 0; i < 4; ++i) folders.push_back(below(imageFolder(i) + "/data"));
     cameras_ = chooseKittiCameras(*tree_, folders, parameters_, sequence_.remarks);
-    is_synced_ = isNamedSynced();
     for (const std::size_t camera : cameras_) {
       images_.push_back(numberedFiles(*tree_, folders[camera], isImageName, sequence_.remarks));
       if (images_.back().empty()) {
         throw FileError(tree_->nameOf(folders[camera]), "has no images, expected 0000000000.png");
       }
     }
+  }
+
+  void stampImages() {
     for (std::size_t k = 0; k < cameras_.size(); ++k) {
       lists_.push_back(is_synced_ && k > 0 ? partnersOfFirst(k) : stamped(k));
     }
@@ -140,48 +180,45 @@ class KittiRawReader {
     return list;
   }
 
-  struct Place {
-    std::shared_ptr<const FileTree> tree;
-    std::string folder;
-  };
-
   // In the folder of the date, which is around the drive and perhaps outside of the tree; or in
   // the drive itself.
-  Place findCalibration() const {
+  void findCalibration() {
     const std::string around = folderOf(folder_);
     for (const std::string& folder : {folder_, around}) {
-      if (tree_->has(joined(folder, kCalibration))) return {tree_, folder};
+      if (!tree_->has(joined(folder, kCalibration))) continue;
+      calibration_ = std::make_unique<KittiRawCalibration>(*tree_, folder);
+      return;
     }
     const bool is_inside = !folder_.empty();
     const bool is_folder = detail::fileKind(tree_->root()) == detail::FileKind::folder;
-    if (is_inside || !is_folder) return {};
+    if (is_inside || !is_folder) return;
     const std::shared_ptr<const FileTree> outside = FileTree::open(tree_->root() + "/..");
-    return outside->has(kCalibration) ? Place{outside, ""} : Place{};
+    if (outside->has(kCalibration)) {
+      calibration_ = std::make_unique<KittiRawCalibration>(*outside, "");
+    }
   }
 
   void calibrate() {
-    const Place place = findCalibration();
     std::vector<CameraSensor>& sensors = sequence_.info.sensors.cameras;
     sequence_.info.body = "the left grey camera (camera 0)";
-    if (place.tree == nullptr && cameras_.size() > 1) {
+    if (calibration_ == nullptr && cameras_.size() > 1) {
       throw FileError(nameBelow(kCalibration),
                       "is missing, and in the folder around the drive, too; one camera "
                       "(stereo=false) needs none");
     }
-    if (place.tree == nullptr) {
+    if (calibration_ == nullptr) {
       sequence_.remarks.say(std::string("there is no ") + kCalibration +
                             ": the camera is not calibrated");
       sequence_.info.body = "";
       sensors.push_back(cameraOf(kittiCameraName(cameras_[0]), Camera()));
       return;
     }
-    const KittiRawCalibration calibration(*place.tree, place.folder);
     for (std::size_t k = 0; k < cameras_.size(); ++k) {
       const ImageShape shape = shapeOfFile(*tree_, lists_[k][0].file);
-      const bool is_rectified = calibration.isRectified(cameras_[k], shape, is_synced_);
-      sensors.push_back(calibration.camera(cameras_[k], is_rectified, shape));
+      const bool is_rectified = calibration_->isRectified(cameras_[k], shape, is_rectified_);
+      sensors.push_back(calibration_->camera(cameras_[k], is_rectified, shape));
     }
-    has_body_ = calibration.hasImu();
+    has_body_ = calibration_->hasImu();
     if (has_body_) sequence_.info.body = "the inertial unit (OXTS): x forward, y left, z up";
   }
 
@@ -228,19 +265,14 @@ class KittiRawReader {
   }
 
   void orderSamples(std::vector<ListedImage>& list) {
-    const auto isBefore = [](const ListedImage& a, const ListedImage& b) {
-      return a.stamp < b.stamp;
-    };
-    if (!std::is_sorted(list.begin(), list.end(), isBefore)) {
+    const bool was_sorted = sortUnique(
+        list, [](const ListedImage& one) { return one.stamp; },
+        [this](const ListedImage& twin) {
+          sequence_.remarks.skip("samples of oxts with the stamp of another", twin.file);
+        });
+    if (!was_sorted) {
       sequence_.remarks.say("oxts/timestamps.txt is not in the order of time: it was sorted");
-      std::stable_sort(list.begin(), list.end(), isBefore);
     }
-    const auto isTwin = [this](const ListedImage& a, const ListedImage& b) {
-      if (a.stamp != b.stamp) return false;
-      sequence_.remarks.skip("samples of oxts with the stamp of another", b.file);
-      return true;
-    };
-    list.erase(std::unique(list.begin(), list.end(), isTwin), list.end());
   }
 
   void deliverSamples(const std::vector<OxtsSample>& samples) {
@@ -268,7 +300,9 @@ class KittiRawReader {
   const Svar parameters_;
   std::string folder_;
   Sequence sequence_;
+  std::unique_ptr<const KittiRawCalibration> calibration_;  // null: there is none
   bool is_synced_ = true;
+  bool is_rectified_ = true;
   bool has_body_ = false;
   std::vector<std::size_t> cameras_;               // 0 to 3
   std::vector<std::vector<NumberedFile>> images_;  // of each of these

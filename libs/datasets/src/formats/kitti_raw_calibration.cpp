@@ -71,15 +71,15 @@ CameraSensor KittiRawCalibration::camera(std::size_t camera, bool is_rectified,
     Projection p{};
     std::string problem;
     if (!toProjection(cameras_.get(name, 12), p, problem)) cameras_.fail(name, problem);
-    model = Camera::fromParameters("pinhole", shape.width, shape.height, {p.fx, p.fy, p.cx, p.cy});
+    model = cameras_.camera(name, "pinhole", shape.width, shape.height, {p.fx, p.fy, p.cx, p.cy});
     T_camera_left = SE3d(SO3d(), p.offset);
     if (has_imu_) T_camera_left *= SE3d(cameras_.rotation("R_rect_00"), Vec3d{});
   } else {
-    const Mat3d k = cameras_.matrix(indexed("K", camera));
+    const std::string name = indexed("K", camera);
+    const Mat3d k = cameras_.matrix(name);
     const std::vector<double>& d = cameras_.get(indexed("D", camera), 5);
-    model =
-        Camera::fromParameters("radtan", shape.width, shape.height,
-                               {k(0, 0), k(1, 1), k(0, 2), k(1, 2), d[0], d[1], d[2], d[3], d[4]});
+    model = cameras_.camera(name, "radtan", shape.width, shape.height,
+                            {k(0, 0), k(1, 1), k(0, 2), k(1, 2), d[0], d[1], d[2], d[3], d[4]});
     T_camera_left = fromLeft(camera);
   }
   CameraSensor sensor = cameraOf(kittiCameraName(camera), model);

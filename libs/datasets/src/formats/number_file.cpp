@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "../calibration/formats.h"
+
 namespace gslam {
 inline namespace v1 {
 namespace reading {
@@ -39,6 +41,15 @@ std::vector<double> readNumbers(const FileTree& tree, const std::string& file, s
   return numbersOf(tree.text(file), tree.nameOf(file), count, expected);
 }
 
+std::vector<double> intrinsicsOfRows(const std::vector<double>& k, const std::string& source) {
+  const bool is_matrix = k.size() >= 9 && k[0] > 0 && k[4] > 0 && k[1] == 0 && k[3] == 0 &&
+                         k[6] == 0 && k[7] == 0 && k[8] == 1;
+  if (is_matrix) return {k[0], k[4], k[2], k[5]};
+  throw ParseError(source, 1, 0,
+                   "the first three rows are no K, expected fx 0 cx  0 fy cy  0 0 1, and fx and fy "
+                   "above 0");
+}
+
 NamedNumbers::NamedNumbers(const FileTree& tree, const std::string& file)
     : source_(tree.nameOf(file)) {
   const std::string text = tree.text(file);
@@ -46,7 +57,8 @@ NamedNumbers::NamedNumbers(const FileTree& tree, const std::string& file)
   while (in.nextLine()) {
     const char* const at = in.place();
     std::string name = in.word();
-    if (name.back() != ':') in.fail(at, detail::quotedText(name) + " has no colon behind it");
+    if (name.empty() || name.back() != ':')
+      in.fail(at, detail::quotedText(name) + " has no colon behind it");
     name.pop_back();
     if (name == "calib_time") continue;
     in.skipWord();
@@ -61,6 +73,13 @@ void NamedNumbers::fail(const std::string& name, const std::string& problem) con
   const auto found = lines_.find(name);
   const std::size_t line = found == lines_.end() ? 0 : found->second.number;
   throw ParseError(source_, line, 0, name + " " + problem);
+}
+
+Camera NamedNumbers::camera(const std::string& name, const std::string& model, int width,
+                            int height, const std::vector<double>& parameters) const {
+  const auto found = lines_.find(name);
+  const std::size_t line = found == lines_.end() ? 0 : found->second.number;
+  return calibration::makeCamera(source_, line, model, {width, height}, parameters);
 }
 
 const std::vector<double>& NamedNumbers::get(const std::string& name, std::size_t count) const {

@@ -2,6 +2,7 @@
 #ifndef GSLAM_DATASETS_SRC_FORMATS_NUMBER_FILE_H
 #define GSLAM_DATASETS_SRC_FORMATS_NUMBER_FILE_H
 
+#include <gslam/geometry/camera.h>
 #include <gslam/geometry/mat.h>
 #include <gslam/geometry/se3.h>
 
@@ -27,6 +28,10 @@ std::vector<double> readNumbers(const FileTree& tree, const std::string& file, s
 std::vector<double> numbersOf(const std::string& text, const std::string& source, std::size_t count,
                               const char* expected);
 
+/// fx, fy, cx, cy of the rows of a camera's matrix, with which a file of numbers begins.
+/// @throws ParseError when they are no such matrix
+std::vector<double> intrinsicsOfRows(const std::vector<double>& numbers, const std::string& source);
+
 /// Lines of a name, a colon and numbers, as KITTI's calibrations are.
 class NamedNumbers {
  public:
@@ -42,6 +47,9 @@ class NamedNumbers {
   Vec3d vector(const std::string& name) const;
   /// Nine numbers as a rotation. @throws ParseError when they are none
   SO3d rotation(const std::string& name) const;
+  /// A camera of what stands behind a name. @throws ParseError when it is none
+  Camera camera(const std::string& name, const std::string& model, int width, int height,
+                const std::vector<double>& parameters) const;
   /// @throws ParseError about a name
   [[noreturn]] void fail(const std::string& name, const std::string& problem) const;
 

@@ -7,31 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "../reading/looks_like.h"
+
 namespace gslam {
 inline namespace v1 {
 namespace reading {
 namespace {
-
-using IsSequence = std::function<bool(const std::string& folder)>;
-
-// Folders that are sequences, by depth and name. Nothing inside of one is looked at.
-std::vector<std::string> findSequences(const FileTree& tree, int depth, const IsSequence& is_it) {
-  constexpr std::size_t kMostFolders = 1000;
-  std::vector<std::string> found;
-  std::vector<std::pair<std::string, int>> queue = {{"", 0}};
-  for (std::size_t i = 0; i < queue.size(); ++i) {
-    const std::pair<std::string, int> here = queue[i];
-    if (is_it(here.first)) {
-      found.push_back(here.first);
-    } else if (here.second < depth) {
-      for (const std::string& name : tree.folders(here.first)) {
-        if (queue.size() == kMostFolders) break;
-        queue.emplace_back(joined(here.first, name), here.second + 1);
-      }
-    }
-  }
-  return found;
-}
 
 std::string wantedSequence(const Svar& parameters) {
   const Svar value = parameters.get<Svar>("sequence", Svar());
@@ -44,40 +25,61 @@ bool isDigits(const std::string& text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-bool isNamed(const FileTree& tree, const std::string& folder, const std::string& wanted) {
-  const std::string name = folder.empty() ? tree.baseName() : nameIn(folder);
-  std::size_t a = 0, b = 0;
-  if (name == wanted || folder == wanted) return true;
-  return isDigits(wanted) && numberIn(name, a) && numberIn(wanted, b) && a == b;
+// The number in a name, behind some words where they are given.
+bool numberBehind(const std::string& name, const std::string& words, std::size_t& number) {
+  const std::size_t place = name.find(words);
+  return place != std::string::npos && numberIn(name.substr(place + words.size()), number);
 }
 
-std::string listOf(const FileTree& tree, const std::vector<std::string>& folders) {
-  constexpr std::size_t kMostNamed = 30;
-  std::string list;
-  for (std::size_t i = 0; i < folders.size() && i < kMostNamed; ++i) {
-    list += (list.empty() ? "" : ", ") + (folders[i].empty() ? tree.baseName() : folders[i]);
+using Folders = std::vector<std::string>;
+
+// Those that a user means by a word: the one of this path, or else all of this name, or else all of
+// this number.
+Folders meantBy(const FileTree& tree, const Folders& folders, const std::string& wanted,
+                const std::string& number_behind) {
+  if (std::find(folders.begin(), folders.end(), wanted) != folders.end()) return {wanted};
+  Folders named, numbered;
+  std::size_t a = 0, b = 0;
+  const bool is_number = isDigits(wanted) && numberIn(wanted, a);
+  for (const std::string& folder : folders) {
+    const std::string name = folder.empty() ? tree.baseName() : nameIn(folder);
+    if (name == wanted) named.push_back(folder);
+    const bool is_same = is_number && numberBehind(name, number_behind, b) && a == b;
+    if (is_same) numbered.push_back(folder);
   }
-  return list + (folders.size() > kMostNamed ? ", ..." : "");
+  return named.empty() ? numbered : named;
+}
+
+// The one that is meant; "" with `is_found` false where there is none.
+Place choose(const FileTree& tree, const Folders& found, const std::string& wanted,
+             const std::string& number_behind) {
+  const Folders meant = wanted.empty() ? found : meantBy(tree, found, wanted, number_behind);
+  if (meant.empty()) return {};
+  if (meant.size() == 1) return {true, meant[0]};
+  const std::string count = std::to_string(meant.size());
+  const std::string problem =
+      wanted.empty() ? "is not given, and " + tree.root() + " has " + count
+                     : "is '" + wanted + "', which may be " + count + " of " + tree.root();
+  throw ArgumentError("sequence", problem + "; expected one of: " + namesOfSequences(tree, meant));
 }
 
 }  // namespace
 
-std::string chooseSequence(const FileTree& tree, int depth, const IsSequence& is_it,
-                           const Svar& parameters, const std::string& expected) {
-  const std::vector<std::string> found = findSequences(tree, depth, is_it);
-  if (found.empty()) throw FileError(tree.root(), "has no sequence, expected " + expected);
+std::string chooseSequence(const FileTree& tree, const std::string& format, const Svar& parameters,
+                           const std::string& expected, const std::string& number_behind) {
+  const Layout& layout = layoutOf(format);
   const std::string wanted = wantedSequence(parameters);
-  if (wanted.empty() && found.size() == 1) return found[0];
-  const std::string list = "expected one of: " + listOf(tree, found);
-  if (wanted.empty()) {
-    throw ArgumentError("sequence", "is not given, and " + tree.root() + " has " +
-                                        std::to_string(found.size()) + "; " + list);
+  Folders found;
+  for (const Layout::Predicate is_it : {layout.is_sure, layout.is_enough}) {
+    found = findSequences(tree, layout.depth,
+                          [&](const std::string& folder) { return is_it(tree, folder); });
+    const Place place = choose(tree, found, wanted, number_behind);
+    if (place.is_found) return place.folder;
   }
-  for (const std::string& folder : found) {
-    if (isNamed(tree, folder, wanted)) return folder;
-  }
+  if (found.empty()) throw FileError(tree.root(), "has no sequence, expected " + expected);
   throw ArgumentError("sequence",
-                      "is '" + wanted + "', which " + tree.root() + " has not; " + list);
+                      "is '" + wanted + "', which " + tree.root() +
+                          " has not; expected one of: " + namesOfSequences(tree, found));
 }
 
 bool numberIn(const std::string& name, std::size_t& number) {

@@ -7,7 +7,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <string>
 
 #include "../reading/decode.h"
@@ -17,17 +16,15 @@ namespace gslam {
 inline namespace v1 {
 namespace reading {
 
-/// The folder of the sequence that a user means.
-/// @param depth       most folders between the root and it
-/// @param is_it       whether a folder is a sequence
-/// @param parameters  `sequence`: its name, or the number in that ("6" is "06" and "seq-06"); null
-///   or "": the only one that there is
-/// @param expected    what a sequence has, for errors
-/// @throws FileError when there is none, ArgumentError when there are several, which it lists, or
-///   none of that name
-std::string chooseSequence(const FileTree& tree, int depth,
-                           const std::function<bool(const std::string& folder)>& is_it,
-                           const Svar& parameters, const std::string& expected);
+/// The folder of the sequence that a user means, of those of a format's Layout.
+/// @param parameters     `sequence`: its path below the root, its name, or the number in that ("6"
+///   is "06" and "seq-06"); null or "": the only one that there is
+/// @param expected       what a sequence has, for errors
+/// @param number_behind  what stands before the number in a name
+/// @throws FileError when there is none, ArgumentError when several are meant, which it lists, or
+///   there is none of that name
+std::string chooseSequence(const FileTree& tree, const std::string& format, const Svar& parameters,
+                           const std::string& expected, const std::string& number_behind = "");
 
 /// The first number in a name: 42 of "frame-000042.pose.txt".
 /// @return whether there is one, of at most nine digits

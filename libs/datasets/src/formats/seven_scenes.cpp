@@ -17,9 +17,11 @@
 #include <utility>
 #include <vector>
 
+#include "../calibration/formats.h"
 #include "../reading/file_tree.h"
 #include "../reading/looks_like.h"
 #include "../reading/sequence.h"
+#include "../reading/sort_unique.h"
 #include "camera_parameters.h"
 #include "number_file.h"
 #include "rgbd_camera.h"
@@ -35,25 +37,6 @@ constexpr double kDepthUnits = 1000;
 constexpr std::uint16_t kNoDepth = 65535;
 constexpr double kPoseTolerance = 0.01;  // KinectFusion let its matrices drift a little
 const char* const kIntrinsics = "camera-intrinsics.txt";
-
-bool endsWith(const std::string& name, const std::string& ending) {
-  return name.size() > ending.size() &&
-         name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
-}
-
-// "frame-000012.color.png": 12.
-bool isColour(const std::string& name, std::size_t& number) {
-  const bool is_named = name.compare(0, 6, "frame-") == 0 &&
-                        (endsWith(name, ".color.png") || endsWith(name, ".color.jpg"));
-  return is_named && numberIn(name, number);
-}
-
-bool hasColour(const FileTree& tree, const std::string& folder) {
-  const std::vector<std::string>& files = tree.files(folder);
-  std::size_t number = 0;
-  return std::any_of(files.begin(), files.end(),
-                     [&](const std::string& name) { return isColour(name, number); });
-}
 
 void clearUnknownDepth(Image& image) {
   for (int y = 0; y < image.height(); ++y) {
@@ -74,9 +57,8 @@ class SevenScenesReader {
  public:
   SevenScenesReader(const std::string& path, const Svar& parameters)
       : tree_(FileTree::open(path)), parameters_(parameters) {
-    folder_ = chooseSequence(
-        *tree_, 2, [this](const std::string& folder) { return hasColour(*tree_, folder); },
-        parameters, "frame-000000.color.png ...");
+    folder_ =
+        chooseSequence(*tree_, "7scenes", parameters, "frame-000000.color.png ..." + packedOnes());
   }
 
   std::unique_ptr<Dataset> open() {
@@ -102,36 +84,49 @@ class SevenScenesReader {
     std::string colour;
   };
 
+  // Scenes are downloaded with an archive of each sequence in them.
+  std::string packedOnes() const {
+    std::string names;
+    for (const std::string& name : packedSevenScenes(*tree_, "")) {
+      names += (names.empty() ? "" : ", ") + name;
+    }
+    return names.empty() ? "" : "; name one of these archives, or unpack them: " + names;
+  }
+
   std::string below(const std::string& name) const { return joined(folder_, name); }
 
   void listFrames() {
     for (const std::string& name : tree_->files(folder_)) {
       SceneFrame frame;
-      if (!isColour(name, frame.number)) continue;
+      if (!isSevenScenesColour(name)) continue;
+      if (!numberIn(name, frame.number)) {
+        sequence_.remarks.skip("images without a number in their names", name);
+        continue;
+      }
       frame.base = name.substr(0, name.find('.'));
       frame.colour = name;
       const bool has_depth = tree_->has(below(frame.base + ".depth.png"));
       has_depth_ = has_depth_ || has_depth;
       frames_.push_back(std::move(frame));
     }
-    std::stable_sort(frames_.begin(), frames_.end(),
-                     [](const SceneFrame& a, const SceneFrame& b) { return a.number < b.number; });
     const bool wants_depth = parameters_.get<bool>("depth", true);
     if (wants_depth && !has_depth_) sequence_.remarks.say("there are no depth images");
     has_depth_ = has_depth_ && wants_depth;
-    skipIncomplete();
+    if (has_depth_) skipWithoutDepth();
+    sortUnique(
+        frames_, [](const SceneFrame& frame) { return frame.number; },
+        [this](const SceneFrame& twin) {
+          sequence_.remarks.skip("images whose number another one has", twin.colour);
+        });
   }
 
-  // A frame has both images, and its number alone.
-  void skipIncomplete() {
+  void skipWithoutDepth() {
     std::vector<SceneFrame> whole;
     for (SceneFrame& frame : frames_) {
-      if (has_depth_ && !tree_->has(below(frame.base + ".depth.png"))) {
-        sequence_.remarks.skip("frames without depth", frame.base);
-      } else if (!whole.empty() && whole.back().number == frame.number) {
-        sequence_.remarks.skip("images whose number another one has", frame.colour);
-      } else {
+      if (tree_->has(below(frame.base + ".depth.png"))) {
         whole.push_back(std::move(frame));
+      } else {
+        sequence_.remarks.skip("frames without depth", frame.base);
       }
     }
     frames_ = std::move(whole);
@@ -158,10 +153,9 @@ class SevenScenesReader {
       return is_published ? published : published.resized(shape.width, shape.height);
     }
     const std::vector<double> k = readNumbers(*tree_, file, 9, "the rows of a 3 x 3 matrix");
-    if (k[1] != 0 || k[3] != 0 || k[6] != 0 || k[7] != 0 || k[8] != 1) {
-      throw ParseError(tree_->nameOf(file), 0, 0, "is no camera matrix fx 0 cx 0 fy cy 0 0 1");
-    }
-    return Camera::fromParameters("pinhole", shape.width, shape.height, {k[0], k[4], k[2], k[5]});
+    const std::string name = tree_->nameOf(file);
+    return calibration::makeCamera(name, 1, "pinhole", {shape.width, shape.height},
+                                   intrinsicsOfRows(k, name));
   }
 
   void addCameras() {

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "../calibration/formats.h"
 #include "../reading/file_tree.h"
 #include "../reading/looks_like.h"
 #include "../reading/sequence.h"
@@ -28,29 +29,6 @@ namespace reading {
 namespace {
 
 const char* const kEnding = ".camera";
-constexpr std::size_t kEndingSize = 7;
-
-bool isCameraFile(const std::string& name) {
-  return name.size() > kEndingSize &&
-         name.compare(name.size() - kEndingSize, kEndingSize, kEnding) == 0;
-}
-
-// Folders of such files, from the most to the least usual.
-const char* const kCameraFolders[] = {"", "images", "gt_dense_cameras", "gt_dense_cameras_fullres"};
-
-std::string cameraFolder(const FileTree& tree, const std::string& folder) {
-  for (const char* name : kCameraFolders) {
-    const std::string candidate = *name == '\0' ? folder : joined(folder, name);
-    const std::vector<std::string>& files = tree.files(candidate);
-    if (std::any_of(files.begin(), files.end(), isCameraFile)) return candidate;
-  }
-  return "";
-}
-
-bool hasCameraFile(const FileTree& tree, const std::string& folder) {
-  const std::vector<std::string>& files = tree.files(cameraFolder(tree, folder));
-  return std::any_of(files.begin(), files.end(), isCameraFile);
-}
 
 struct StrechaCamera {
   double fx, fy, cx, cy;
@@ -65,18 +43,11 @@ bool isSameModel(const StrechaCamera& a, const StrechaCamera& b) {
          isNear(a.cx, b.cx) && isNear(a.cy, b.cy);
 }
 
-void checkMatrix(const std::vector<double>& k, const std::string& source) {
-  const bool is_camera =
-      k[0] > 0 && k[4] > 0 && k[1] == 0 && k[3] == 0 && k[6] == 0 && k[7] == 0 && k[8] == 1;
-  if (is_camera) return;
-  throw ParseError(source, 1, 0, "the first three rows are no K, expected fx 0 cx 0 fy cy 0 0 1");
-}
-
 StrechaCamera readCamera(const FileTree& tree, const std::string& file) {
   const std::string source = tree.nameOf(file);
   const std::vector<double> v =
       readNumbers(tree, file, 26, "K (9), 0 0 0, R (9), the centre (3), width and height");
-  checkMatrix(v, source);
+  const std::vector<double> k = intrinsicsOfRows(v, source);
   if (v[9] != 0 || v[10] != 0 || v[11] != 0) {
     throw ParseError(source, 4, 0, "the distortion is not 0 0 0, as it is of Strecha's images");
   }
@@ -89,10 +60,10 @@ StrechaCamera readCamera(const FileTree& tree, const std::string& file) {
   const bool is_size = v[24] >= 1 && v[24] <= 1e6 && v[25] >= 1 && v[25] <= 1e6 &&
                        v[24] == std::floor(v[24]) && v[25] == std::floor(v[25]);
   if (!is_size) throw ParseError(source, 9, 0, "the size of the image is not two whole numbers");
-  return {v[0],
-          v[4],
-          v[2],
-          v[5],
+  return {k[0],
+          k[1],
+          k[2],
+          k[3],
           static_cast<int>(v[24]),
           static_cast<int>(v[25]),
           SE3d(nearest.rotation, {{v[21], v[22], v[23]}})};
@@ -102,9 +73,7 @@ class StrechaReader {
  public:
   StrechaReader(const std::string& path, const Svar& parameters)
       : tree_(FileTree::open(path)), parameters_(parameters) {
-    const reading::Place place = findFolder(*tree_, 1, hasCameraFile);
-    if (!place.is_found) throw FileError(tree_->root(), "has no <image>.camera");
-    folder_ = place.folder;
+    folder_ = onlyFolder(*tree_, "strecha", "has no <image>.camera");
   }
 
   std::unique_ptr<Dataset> open() {
@@ -144,7 +113,7 @@ class StrechaReader {
 
   // All frames are of one camera: a photo with another model cannot be among them.
   void readCameras() {
-    const std::string folder = cameraFolder(*tree_, folder_);
+    const std::string folder = strechaCameraFolder(*tree_, folder_);
     for (const std::string& image : images_) {
       const std::string file = joined(folder, image + kEnding);
       const std::int64_t stamp = static_cast<std::int64_t>(sequence_.stamps.size()) * 1000000000;
@@ -189,10 +158,9 @@ class StrechaReader {
   Camera correctedBy(const Camera& scaled, const ImageShape& shape) {
     const std::string file = joined(image_folder_, "K.txt");
     if (!tree_->has(file)) return scaled;
-    const std::vector<double> k = readNumbers(*tree_, file, 9, "the rows of K");
-    checkMatrix(k, tree_->nameOf(file));
-    const Camera given =
-        Camera::fromParameters("pinhole", shape.width, shape.height, {k[0], k[4], k[2], k[5]});
+    const Camera given = calibration::makeCamera(
+        tree_->nameOf(file), 1, "pinhole", {shape.width, shape.height},
+        intrinsicsOfRows(readNumbers(*tree_, file, 9, "the rows of K"), tree_->nameOf(file)));
     const std::vector<double> a = given.parameters(), b = scaled.parameters();
     double most = 0;
     for (std::size_t i = 0; i < 4; ++i) most = std::max(most, std::fabs(a[i] - b[i]));

@@ -51,13 +51,23 @@ Camera cameraOfValues(const std::vector<double>& values, const ImageShape& shape
   return is_published ? camera : camera.resized(shape.width, shape.height);
 }
 
+// Whether a text has words that end in a number, and no digit behind that.
+bool hasNumbered(const std::string& text, const std::string& words) {
+  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) {
+    const std::size_t end = at + words.size();
+    if (end == text.size() || text[end] < '0' || text[end] > '9') return true;
+  }
+  return false;
+}
+
 // Which of the three cameras a name speaks of: freiburg1, fr1.
 const Published* publishedFor(const std::string& name) {
+  const std::string padded = "_" + name + "_";
   for (const Published& camera : publishedCameras()) {
     const std::string number = camera.name;
-    const bool is_short =
-        name.compare(0, 3, "fr" + number) == 0 || name.find("_fr" + number) != std::string::npos;
-    if (is_short || name.find("freiburg" + number) != std::string::npos) return &camera;
+    if (hasNumbered(padded, "_fr" + number) || hasNumbered(padded, "freiburg" + number)) {
+      return &camera;
+    }
   }
   return nullptr;
 }
@@ -82,12 +92,7 @@ class TumReader {
  public:
   TumReader(const std::string& path, const Svar& parameters)
       : tree_(FileTree::open(path)), parameters_(parameters) {
-    const reading::Place place =
-        findFolder(*tree_, 1, [](const FileTree& tree, const std::string& folder) {
-          return tree.has(joined(folder, "rgb.txt"));
-        });
-    if (!place.is_found) throw FileError(tree_->root(), "has no rgb.txt, which lists the images");
-    folder_ = place.folder;
+    folder_ = onlyFolder(*tree_, "tum", "has no rgb.txt, which lists the images");
   }
 
   std::unique_ptr<Dataset> open() {
@@ -97,12 +102,14 @@ class TumReader {
     info.body = "the colour camera";
     info.clock = "POSIX time of the recording computer";
     std::vector<std::vector<ListedImage>> lists = {listOf("rgb.txt")};
+    sayIfIcl(lists[0]);
     addColour(lists[0][0].file);
     if (parameters_.get<bool>("depth", true)) addDepth(lists);
     const std::vector<std::string> names = makeFrames(sequence_, lists, toleranceOf(parameters_));
     loadImageFiles(sequence_, {tree_, names});
     readTruth();
     countAccelerations();
+    sayUnread();
     return deliver(std::move(sequence_), prefetchOf(parameters_));
   }
 
@@ -119,6 +126,19 @@ class TumReader {
     return images;
   }
 
+  // ICL-NUIM's stamps are numbers of frames.
+  void sayIfIcl(const std::vector<ListedImage>& images) {
+    constexpr std::int64_t kSecond = 1000000000;
+    for (const ListedImage& image : images) {
+      const bool is_frame = image.stamp >= 0 && image.stamp % kSecond == 0;
+      if (!is_frame || image.stamp / kSecond >= 1000000) return;
+    }
+    sequence_.remarks.say(
+        "all stamps are whole seconds: if they are numbers of frames of ICL-NUIM, whose poses are "
+        "mirrored, icl:" +
+        tree_->root() + " reads it so");
+  }
+
   void addColour(const std::string& image) {
     const ImageShape shape = shapeOfFile(*tree_, image);
     CameraSensor colour = cameraOf("rgb", calibrationFor(shape));
@@ -128,8 +148,8 @@ class TumReader {
   Camera calibrationFor(const ImageShape& shape) {
     const Camera given = wantedCamera(parameters_, sequence_.remarks);
     const std::string recording = recordingOf(tree_->text(below("rgb.txt")));
-    const Published* published = publishedFor(sequence_.info.name);
-    if (published == nullptr) published = publishedFor(recording);
+    const Published* published = publishedFor(recording);
+    if (published == nullptr) published = publishedFor(sequence_.info.name);
     if (published != nullptr) sequence_.info.licence = "CC BY 4.0";
     if (given.isValid()) return given;
     if (tree_->has(below("calibration.txt"))) {
@@ -182,8 +202,7 @@ class TumReader {
   }
 
   // A sample of an inertial unit has an angular velocity, too, which nobody measured.
-  void countAccelerations() {
-    if (!tree_->has(below("accelerometer.txt"))) return;
+  std::size_t accelerations() const {
     const std::string text = tree_->text(below("accelerometer.txt"));
     const std::string source = nameBelow("accelerometer.txt");
     detail::FieldReader in(text, source, "timestamp ax ay az");
@@ -193,9 +212,34 @@ class TumReader {
       for (const char* name : {"ax", "ay", "az"}) (void)in.number(name);
       in.endLine();
     }
-    sequence_.remarks.say(countText(count, "acceleration") +
-                          " of accelerometer.txt are not delivered: the sensor measured no angular "
-                          "velocity, which inertial samples have");
+    return count;
+  }
+
+  // A fault in what is not delivered is no reason to deliver nothing.
+  void countAccelerations() {
+    if (!tree_->has(below("accelerometer.txt"))) return;
+    try {
+      sequence_.remarks.say(
+          countText(accelerations(), "acceleration") +
+          " of accelerometer.txt are not delivered: the sensor measured no angular velocity, which "
+          "inertial samples have");
+    } catch (const Error& error) {
+      sequence_.remarks.say("accelerometer.txt is not delivered, and has a fault: " +
+                            std::string(error.what()));
+    }
+  }
+
+  // ETH3D's SLAM dataset has an inertial unit and a second colour camera.
+  void sayUnread() {
+    const auto hasAny = [this](const char* name) {
+      return tree_->has(below(name)) || tree_->hasFolder(below(name));
+    };
+    if (hasAny("imu.txt")) {
+      sequence_.remarks.say("imu.txt was not read: frames have no inertial samples");
+    }
+    if (hasAny("rgb2.txt") || hasAny("rgb2")) {
+      sequence_.remarks.say("rgb2, the second colour camera, was not read");
+    }
   }
 
   std::shared_ptr<const FileTree> tree_;

@@ -30,10 +30,6 @@ inline namespace v1 {
 namespace reading {
 namespace {
 
-bool isTumMono(const FileTree& tree, const std::string& folder) {
-  return tree.has(joined(folder, "images.zip")) || tree.hasFolder(joined(folder, "images"));
-}
-
 enum class Photometric { none, u8, f32 };
 
 Photometric photometricOf(const Svar& parameters) {
@@ -211,12 +207,10 @@ class TumMono {
 
 std::unique_ptr<Dataset> openTumMono(const std::string& path, const Svar& parameters) {
   std::shared_ptr<const FileTree> tree = FileTree::open(path);
-  const Place place = findFolder(*tree, 1, isTumMono);
-  if (!place.is_found) {
-    throw FileError(tree->root(), "has neither images/ nor images.zip, expected TUM monoVO");
-  }
+  const std::string folder =
+      onlyFolder(*tree, "tummono", "has neither images/ nor images.zip, expected TUM monoVO");
   const Svar all = tumMonoFactory().parameters.merged(parameters);
-  return TumMono(below(std::move(tree), place.folder), all).open();
+  return TumMono(below(std::move(tree), folder), all).open();
 }
 
 }  // namespace

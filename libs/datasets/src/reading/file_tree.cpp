@@ -219,6 +219,11 @@ std::string nameIn(const std::string& path) {
   return path.substr(path.rfind('/') + 1);  // from 0 on where there is none
 }
 
+bool endsWith(const std::string& name, const std::string& ending) {
+  return name.size() > ending.size() &&
+         name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
+}
+
 bool isImageName(const std::string& name) {
   static const char* const kEndings[] = {"png", "jpg", "jpeg", "pgm", "ppm",  "pbm",
                                          "bmp", "tif", "tiff", "exr", "webp", "jp2"};

@@ -75,6 +75,9 @@ std::string folderOf(const std::string& path);
 std::string nameIn(const std::string& path);
 /// @}
 
+/// Whether a name ends so, and has something before that.
+bool endsWith(const std::string& name, const std::string& ending);
+
 /// Whether a name has the ending of an image that OpenCV reads (png, jpg, jpeg, pgm, ppm, pbm, bmp,
 /// tif, tiff, exr, webp, jp2), in any case.
 bool isImageName(const std::string& name);

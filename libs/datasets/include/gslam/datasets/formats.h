@@ -60,15 +60,16 @@ GSLAM_DATASETS_EXPORT DatasetFactory kittiFactory();
 /// samples and satellite positions. World: x east, y north, z up from the first position on, in the
 /// devkit's Mercator projection. All of oxts/data is read when it is opened.
 ///
-/// * `sequence`, `cameras`, `stereo`: as of `kitti`
+/// * `sequence`: the drive, such as 5 or "2011_09_26_drive_0005_sync"; null: the only one
+/// * `cameras`, `stereo`: as of `kitti`
 /// * `tolerance`: most seconds between images of a frame in an _extract drive
 GSLAM_DATASETS_EXPORT DatasetFactory kittiRawFactory();
 /// `tum`: TUM RGB-D. Body: the colour camera. Without depth.txt it has one camera.
 ///
 /// The calibration is, in this order, what the user wants, that of calibration.txt (fx fy cx cy k1
 /// k2 p1 p2 k3, as exportDataset() and ETH3D write it), the published one of freiburg1, 2 or 3, by
-/// the name of the folder or that in rgb.txt, or ROS's default. accelerometer.txt is counted and
-/// not delivered: nobody measured angular velocities.
+/// the name in rgb.txt or else that of the folder, or ROS's default. accelerometer.txt is counted
+/// and not delivered: nobody measured angular velocities.
 ///
 /// * `depth`: whether there shall be depth
 /// * `tolerance`: most seconds between colour and depth, see associate()
@@ -76,9 +77,10 @@ GSLAM_DATASETS_EXPORT DatasetFactory kittiRawFactory();
 /// * `camera`: such as "pinhole 640x480 525 525 319.5 239.5"
 /// * `calibration`: a file, see readCalibration()
 GSLAM_DATASETS_EXPORT DatasetFactory tumFactory();
-/// `icl`: ICL-NUIM, in the form that is like TUM's (associations.txt, *.gt.freiburg) and that of
-/// POV-Ray (scene_00_0000.png, .depth, .txt, whose distances along rays become depth along the
-/// axis).
+/// `icl`: ICL-NUIM, in the form that is like TUM's (associations.txt, or else rgb.txt and
+/// depth.txt;
+/// *.gt.freiburg, or else groundtruth.txt) and that of POV-Ray (scene_00_0000.png, .depth, .txt,
+/// whose distances along rays become depth along the axis).
 ///
 /// Body: the camera. In the files y points up in the camera and the world, both left-handed, and fy
 /// is -480. Here y points down in both: fy is 480, images are as they are, and a pose (R, t)
@@ -117,7 +119,7 @@ GSLAM_DATASETS_EXPORT DatasetFactory photosFactory();
 /// few pixels: nobody calibrated it. Depth of 65535 becomes 0. Frames are 1/30 s apart. All poses
 /// are read when it is opened; those that are not finite, or none, are skipped.
 ///
-/// * `sequence`: which one, such as "seq-01" or 1; null: the only one
+/// * `sequence`: which one, such as "chess/seq-01", "seq-01" or 1; null: the only one
 /// * `depth`, `depth_factor`, `camera`, `calibration`: as of `tum`; else
 ///   camera-intrinsics.txt in or around the sequence, or 585 585 320 240
 GSLAM_DATASETS_EXPORT DatasetFactory sevenScenesFactory();
