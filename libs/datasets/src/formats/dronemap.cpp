@@ -118,7 +118,7 @@ class DroneMap {
       tidy(images, *tree_, "frames.txt", sequence_.remarks);
       readGps();
     }
-    setCamera();
+    setCamera(images);
     std::vector<std::string> names = makeFrames(sequence_, {images}, 0);
     loadImageFiles(sequence_, {tree_, std::move(names)});
     return deliver(std::move(sequence_), prefetchOf(parameters_));
@@ -182,9 +182,12 @@ class DroneMap {
     sequence_.info.sensors.has_gnss = !sequence_.gnss.empty();
   }
 
-  void setCamera() {
+  void setCamera(const std::vector<ListedImage>& images) {
     CameraSensor& sensor = sequence_.info.sensors.cameras[0];
-    if (overrideCamera(parameters_, sensor, sequence_.remarks)) return;
+    if (overrideCamera(parameters_, sensor, sequence_.remarks,
+                       [&]() { return shapeOfFirst(*tree_, images); })) {
+      return;
+    }
     const auto named = settings_.find("Video.CameraInName");
     const std::string name =
         (named == settings_.end() ? std::string("Camera") : named->second.value) + ".Paraments";

@@ -64,7 +64,9 @@ class KittiRawReader {
     info.clock = "date and time of the recording computer, counted as if they were UTC";
     listImages();
     calibrate();
-    loadImageFiles(sequence_, {tree_, makeFrames(sequence_, lists_, is_synced_ ? 0 : tolerance())});
+    loadImageFiles(sequence_,
+                   {tree_, makeFrames(sequence_, lists_,
+                                      is_synced_ ? 0 : toleranceOf(parameters_, 0.02, 10))});
     readOxtsFolder();
     if (tree_->hasFolder(below("velodyne_points"))) {
       sequence_.remarks.say("velodyne_points was not read: there is no place for laser scans");
@@ -75,13 +77,6 @@ class KittiRawReader {
  private:
   std::string below(const std::string& name) const { return joined(folder_, name); }
   std::string nameBelow(const std::string& name) const { return tree_->nameOf(below(name)); }
-
-  std::int64_t tolerance() const {
-    const double seconds = parameters_.get<double>("tolerance", 0.02);
-    if (seconds >= 0 && seconds <= 10) return std::llround(seconds * 1e9);
-    throw ArgumentError("tolerance",
-                        "is " + std::to_string(seconds) + ", expected 0 to 10 seconds");
-  }
 
   // Drives whose names say nothing are taken for the usual ones.
   bool isNamedSynced() const {
