@@ -132,8 +132,8 @@ TEST(readTumVi, TheLicenceIsThatOfTumViOnly) {
 }
 
 // Rows in the form of the published archives, whatever export makes of it: dso/cam0/times.txt in
-// ns, s and ms, and mav0/mocap0/data.csv in ns with w first (vision.in.tum.de/data/datasets/
-// visual-inertial-dataset, "Data format").
+// ns, s and ms, and mav0/mocap0/data.csv in ns with w first (see vision.in.tum.de/data/datasets/
+// visual-inertial-dataset).
 TEST(readTumVi, ReadsRowsAsTheyArePublished) {
   const TempFolder folder;
   const std::string stamps[] = {"1520530308199447626", "1520530308249448626"};

@@ -82,7 +82,7 @@ Camera cameraOf(const FileTree& tree, const std::string& name, const Setting& se
   }
   if (!(p[0] >= 1 && p[0] <= 1e6 && p[1] >= 1 && p[1] <= 1e6)) fail("has no size of images");
   if (p.size() == 7 && p[2] < 1 && p[3] < 1) {
-    for (const std::size_t i : {2, 3, 4, 5}) p[i] *= p[i % 2];
+    for (std::size_t i = 2; i < 6; ++i) p[i] *= p[i % 2];
   }
   const char* const model = p.size() == 6 ? "pinhole" : p.size() == 7 ? "fov" : "radtan";
   try {
