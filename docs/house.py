@@ -3,7 +3,7 @@
 
 rooms.json holds "floors" (names, lowest first) and "rooms" (name, path, floor, may_use). A room may use rooms on lower
 floors only; ["*"] stands for all of them. Each floor becomes a band, each room a box, each may_use an arrow down; for
-"*" a note stands in the box. An arrow that others already imply (evaluation > datasets > core) is drawn faint.
+"*" a note stands in the box. An arrow that others already imply (datasets > core > base) is drawn faint.
 A room is drawn solid when its path is a folder of the repository (the parent of the folder of rooms.json), otherwise
 as planned. Exit status: 0 drawn, 2 bad input, with one sentence on stderr.
 """

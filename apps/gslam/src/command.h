@@ -26,6 +26,7 @@ struct Command {
 int runCommand(const std::vector<std::string>& arguments);
 int playCommand(const std::vector<std::string>& arguments);
 int infoCommand(const std::vector<std::string>& arguments);
+int evalCommand(const std::vector<std::string>& arguments);
 int mapCommand(const std::vector<std::string>& arguments);
 int pluginsCommand(const std::vector<std::string>& arguments);
 int datasetsCommand(const std::vector<std::string>& arguments);

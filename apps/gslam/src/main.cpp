@@ -21,6 +21,7 @@ constexpr Command kCommands[] = {
     {"run", "run a SLAM system on a dataset and keep the results", app::runCommand},
     {"play", "play a dataset, to a SLAM system or to nobody", app::playCommand},
     {"info", "say what is in a dataset", app::infoCommand},
+    {"eval", "measure a trajectory against ground truth", app::evalCommand},
     {"map", "say what is in a map file, or convert it", app::mapCommand},
     {"plugins", "list the plugins, what they bring and its parameters", app::pluginsCommand},
     {"datasets", "list the kinds of datasets that can be read", app::datasetsCommand},

@@ -283,8 +283,12 @@ class Check {
                         secondsText(result_.last_stamp) + " s",
                     "");
     }
+    for (const StampedPose& pose : truth) {
+      if (isFinite(pose.pose.translation())) continue;
+      errors_.add("the pose is not finite", "ground truth at " + secondsText(pose.stamp) + " s");
+    }
     for (std::size_t i = 1; i < truth.size(); ++i) {
-      const double seconds = double(truth[i].stamp - truth[i - 1].stamp) * 1e-9;
+      const double seconds = (double(truth[i].stamp) - double(truth[i - 1].stamp)) * 1e-9;
       const double metres = (truth[i].pose.translation() - truth[i - 1].pose.translation()).norm();
       if (metres > kMostSpeed * seconds && metres > 0.1) {
         warnings_.add("it jumps faster than " + std::to_string(int(kMostSpeed)) + " m/s",

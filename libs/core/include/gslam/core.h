@@ -7,6 +7,7 @@
 /// trajectory_file.h, map_file.h and ply.h; opencv.h and eigen.h are for those who have these.
 
 #include <gslam/core/application.h>
+#include <gslam/core/associate.h>
 #include <gslam/core/covisibility.h>
 #include <gslam/core/dataset.h>
 #include <gslam/core/frame.h>

@@ -4,7 +4,6 @@
 /// @file
 /// All of GSLAM::datasets.
 
-#include <gslam/datasets/associate.h>
 #include <gslam/datasets/calibration_file.h>
 #include <gslam/datasets/check_dataset.h>
 #include <gslam/datasets/contact_sheet.h>

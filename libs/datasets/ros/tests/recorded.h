@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <string>
@@ -27,7 +28,7 @@ inline std::string ros2Type(const std::string& type) {
 }
 
 inline std::string folderOfTests() {
-  return ::testing::TempDir();
+  return std::filesystem::temp_directory_path().string() + "/";
 }
 
 inline void writeFile(const std::string& path, const std::vector<std::uint8_t>& bytes) {

@@ -96,12 +96,12 @@ void checkCamera(const CameraSensor& sensor, int width, int height, const std::s
 // --- images ---
 
 std::unique_ptr<Dataset> openImages(std::shared_ptr<const FileTree> tree,
-                                    std::vector<std::string> names, Remarks remarks,
-                                    const Options& options) {
+                                    std::vector<std::string> names, const std::string& title,
+                                    Remarks remarks, const Options& options) {
   std::sort(names.begin(), names.end(), isBeforeNaturally);
   Sequence sequence;
   sequence.remarks = std::move(remarks);
-  sequence.info = infoOf(tree->baseName(), options, sequence.remarks,
+  sequence.info = infoOf(title, options, sequence.remarks,
                          [&]() { return shapeOf(readImage(*tree, names.front())); });
   const double rate = options.rate > 0 ? options.rate : kUsualRate;
   sequence.info.clock = "the number of the image, by the rate";
@@ -137,7 +137,8 @@ std::unique_ptr<Dataset> openPattern(const std::string& path, const Options& opt
     if (isImageName(name) && matches(name.c_str(), pattern.c_str())) names.push_back(name);
   }
   if (names.empty()) throw FileError(path, "matches no image, expected png, jpg or others");
-  return openImages(std::move(tree), std::move(names), Remarks(), options);
+  const std::string title = tree->baseName();
+  return openImages(std::move(tree), std::move(names), title, Remarks(), options);
 }
 
 std::unique_ptr<Dataset> openFolder(const std::string& path, const Options& options) {
@@ -145,12 +146,13 @@ std::unique_ptr<Dataset> openFolder(const std::string& path, const Options& opti
   Remarks remarks;
   const Place place = findImageFolder(*tree, remarks);
   if (!place.is_found) throw FileError(path, "has no images, expected png, jpg or others");
+  const std::string title = tree->baseName();
   tree = below(std::move(tree), place.folder);
   std::vector<std::string> names = tree->files("");
   names.erase(std::remove_if(names.begin(), names.end(),
                              [](const std::string& name) { return !isImageName(name); }),
               names.end());
-  return openImages(std::move(tree), std::move(names), std::move(remarks), options);
+  return openImages(std::move(tree), std::move(names), title, std::move(remarks), options);
 }
 
 // --- videos ---

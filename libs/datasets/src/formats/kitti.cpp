@@ -174,7 +174,7 @@ class KittiReader {
     CameraSensor sensor = cameraOf(
         kittiCameraName(camera),
         Camera::fromParameters("pinhole", shape.width, shape.height, {p.fx, p.fy, p.cx, p.cy}));
-    sensor.T_body_camera = SE3d(SO3d(), -p.offset);
+    sensor.T_body_camera = SE3d(SO3d(), Vec3d{} - p.offset);
     return sensor;
   }
 

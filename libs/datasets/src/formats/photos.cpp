@@ -53,11 +53,12 @@ SO3d gimbalRotation(const PhotoFacts& facts) {
 
 class Photos {
  public:
-  Photos(std::shared_ptr<const FileTree> tree, Remarks remarks, const Svar& parameters)
+  Photos(std::shared_ptr<const FileTree> tree, const std::string& name, Remarks remarks,
+         const Svar& parameters)
       : tree_(std::move(tree)), parameters_(parameters) {
     sequence_.remarks = std::move(remarks);
     DatasetInfo& info = sequence_.info;
-    info.name = tree_->baseName();
+    info.name = name;
     info.format = "photos";
     info.body = "the camera";
     CameraSensor camera;
@@ -208,7 +209,8 @@ std::unique_ptr<Dataset> openPhotos(const std::string& path, const Svar& paramet
   Remarks remarks;
   const Place place = findImageFolder(*tree, remarks);
   if (!place.is_found) throw FileError(path, "has no images, expected photos");
-  return Photos(below(std::move(tree), place.folder), std::move(remarks), parameters).open();
+  const std::string name = tree->baseName();
+  return Photos(below(std::move(tree), place.folder), name, std::move(remarks), parameters).open();
 }
 
 }  // namespace

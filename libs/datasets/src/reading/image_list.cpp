@@ -1,8 +1,8 @@
 #include "image_list.h"
 
 #include <gslam/base/error.h>
+#include <gslam/core/associate.h>
 #include <gslam/core/detail/field_reader.h>
-#include <gslam/datasets/associate.h>
 
 #include <algorithm>
 #include <cstdio>

@@ -93,9 +93,9 @@ void sayOutside(const Sequence& sequence, Remarks& remarks) {
 // So that differences are no larger than a number can be.
 void checkSpan(std::int64_t first, std::int64_t last, const std::string& what) {
   const auto span = static_cast<std::uint64_t>(last) - static_cast<std::uint64_t>(first);
-  if (span <= std::uint64_t(1) << 61) return;
+  if (span <= std::uint64_t(1) << 62) return;
   throw Error(what + " are from " + secondsText(first) + " to " + secondsText(last) +
-              " s, expected less than 70 years");
+              " s, expected less than 146 years");
 }
 
 template <class Samples>

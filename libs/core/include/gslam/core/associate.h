@@ -1,11 +1,13 @@
-#ifndef GSLAM_DATASETS_ASSOCIATE_H
-#define GSLAM_DATASETS_ASSOCIATE_H
+#ifndef GSLAM_CORE_ASSOCIATE_H
+#define GSLAM_CORE_ASSOCIATE_H
 
+#include <gslam/base/error.h>
 #include <gslam/base/span.h>
-#include <gslam/datasets/export.h>
+#include <gslam/core/detail/stamp_pairing.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 /// @file
@@ -13,12 +15,6 @@
 
 namespace gslam {
 inline namespace v1 {
-
-/// Two measurements that belong together.
-struct StampPair {
-  std::size_t a;  ///< place in the first list
-  std::size_t b;  ///< place in the second list
-};
 
 /// Pairs stamps of two lists, each with at most one of the other.
 ///
@@ -32,12 +28,19 @@ struct StampPair {
 /// @param a, b       nanoseconds, ascending, none twice
 /// @param tolerance  most nanoseconds between the two of a pair, 0 or more
 /// @return ascending
-/// @throws ArgumentError when a list is not ascending, or the tolerance negative
-GSLAM_DATASETS_EXPORT std::vector<StampPair> associate(Span<const std::int64_t> a,
-                                                       Span<const std::int64_t> b,
-                                                       std::int64_t tolerance);
+/// @throws ArgumentError when a list is not ascending, the tolerance negative, or more than 2^28
+///   pairs are within it
+inline std::vector<StampPair> associate(Span<const std::int64_t> a, Span<const std::int64_t> b,
+                                        std::int64_t tolerance) {
+  detail::checkAscending("a", a);
+  detail::checkAscending("b", b);
+  if (tolerance < 0) {
+    throw ArgumentError("tolerance", "is " + std::to_string(tolerance) + ", expected 0 or more");
+  }
+  return detail::StampPairing(a, b, static_cast<std::uint64_t>(tolerance)).pairs();
+}
 
 }  // namespace v1
 }  // namespace gslam
 
-#endif  // GSLAM_DATASETS_ASSOCIATE_H
+#endif  // GSLAM_CORE_ASSOCIATE_H

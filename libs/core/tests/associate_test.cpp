@@ -1,5 +1,5 @@
 #include <gslam/base/error.h>
-#include <gslam/datasets/associate.h>
+#include <gslam/core/associate.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -91,6 +91,12 @@ TEST(associate, takes_long_lists) {
     b.push_back(i * 33333333 + (i % 7) * 1000000);
   }
   EXPECT_EQ(associate(a, b, 20000000).size(), 200000U);
+}
+
+TEST(associate, refuses_a_tolerance_that_takes_all_memory) {
+  Stamps many;
+  for (std::int64_t i = 0; i < 100000; ++i) many.push_back(i);
+  EXPECT_THROW(associate(many, many, 1000000), gslam::ArgumentError);
 }
 
 TEST(associate, refuses_what_is_not_ascending) {

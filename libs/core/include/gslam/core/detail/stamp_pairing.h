@@ -1,16 +1,28 @@
+// How associate() finds the best pairs.
+#ifndef GSLAM_CORE_DETAIL_STAMP_PAIRING_H
+#define GSLAM_CORE_DETAIL_STAMP_PAIRING_H
+
 #include <gslam/base/error.h>
-#include <gslam/datasets/associate.h>
+#include <gslam/base/span.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace gslam {
 inline namespace v1 {
-namespace {
 
-using Stamps = Span<const std::int64_t>;
+/// Two measurements that belong together.
+struct StampPair {
+  std::size_t a;  ///< place in the first list
+  std::size_t b;  ///< place in the second list
+};
 
-void checkAscending(const char* name, Stamps stamps) {
+namespace detail {
+
+inline void checkAscending(const char* name, Span<const std::int64_t> stamps) {
   for (std::size_t i = 1; i < stamps.size(); ++i) {
     if (stamps[i - 1] < stamps[i]) continue;
     throw ArgumentError(name, "is not ascending: number " + std::to_string(i) + " is " +
@@ -19,41 +31,38 @@ void checkAscending(const char* name, Stamps stamps) {
   }
 }
 
-std::uint64_t distance(std::int64_t a, std::int64_t b) {
-  const auto x = static_cast<std::uint64_t>(a), y = static_cast<std::uint64_t>(b);
-  return a < b ? y - x : x - y;
-}
-
 // How good a way to pair is: more pairs first, then less distance.
-struct Merit {
+struct PairingMerit {
   std::size_t pairs = 0;
   double distance = 0;
 
-  bool isBetterThan(const Merit& other) const {
+  bool isBetterThan(const PairingMerit& other) const {
     return pairs != other.pairs ? pairs > other.pairs : distance < other.distance;
   }
 };
 
 // The stamps of b within the tolerance of one of a, and the best that can be done with all of a up
 // to it and all of b up to each of them.
-struct Row {
-  std::size_t begin = 0;      // in b
-  std::size_t end = 0;        // in b
-  std::vector<Merit> merits;  // of b up to begin - 1, begin, ..., end - 1
+struct PairingRow {
+  std::size_t begin = 0;             // in b
+  std::size_t end = 0;               // in b
+  std::vector<PairingMerit> merits;  // of b up to begin - 1, begin, ..., end - 1
 
-  const Merit& upTo(std::size_t b_end) const {  // all of b before b_end
+  const PairingMerit& upTo(std::size_t b_end) const {  // all of b before b_end
     return merits[std::min(b_end, end) - begin];
   }
 };
 
-enum class Step : std::uint8_t { skip_a, skip_b, pair };
-
 // Dynamic programming over the prefixes of both lists, in a band: stamps of b outside of the
 // tolerance of one of a are no partners, and the merit stays what it is.
-class Pairing {
+class StampPairing {
  public:
-  Pairing(Stamps a, Stamps b, std::uint64_t tolerance) : a_(a), b_(b), tolerance_(tolerance) {
-    Row row;
+  using Stamps = Span<const std::int64_t>;
+  static constexpr std::size_t kMostSteps = std::size_t(1) << 28;  // bytes, too
+
+  StampPairing(Stamps a, Stamps b, std::uint64_t tolerance) : a_(a), b_(b), tolerance_(tolerance) {
+    findBands();
+    PairingRow row;
     row.merits.resize(1);
     for (std::size_t i = 0; i < a.size(); ++i) row = nextRow(row, i);
   }
@@ -77,23 +86,40 @@ class Pairing {
   }
 
  private:
+  enum class Step : std::uint8_t { skip_a, skip_b, pair };
   struct Band {
     std::size_t begin, end, first_step;
   };
 
-  Row nextRow(const Row& before, std::size_t i) {
-    Row row;
-    row.begin = before.begin;
-    while (row.begin < b_.size() && b_[row.begin] < a_[i] &&
-           distance(a_[i], b_[row.begin]) > tolerance_) {
-      ++row.begin;
+  static std::uint64_t distance(std::int64_t a, std::int64_t b) noexcept {
+    return a < b ? std::uint64_t(b) - std::uint64_t(a) : std::uint64_t(a) - std::uint64_t(b);
+  }
+
+  void findBands() {
+    std::size_t begin = 0, end = 0, steps = 0;
+    bands_.reserve(a_.size());
+    for (const std::int64_t stamp : a_) {
+      while (begin < b_.size() && b_[begin] < stamp && distance(stamp, b_[begin]) > tolerance_) {
+        ++begin;
+      }
+      end = std::max(begin, end);
+      while (end < b_.size() && (b_[end] <= stamp || distance(stamp, b_[end]) <= tolerance_)) {
+        ++end;
+      }
+      bands_.push_back({begin, end, steps});
+      steps += end - begin;
+      if (steps > kMostSteps) {
+        throw ArgumentError("tolerance",
+                            "has more than 2^28 pairs within it, expected a smaller one");
+      }
     }
-    row.end = std::max(before.end, row.begin);
-    while (row.end < b_.size() &&
-           (b_[row.end] <= a_[i] || distance(a_[i], b_[row.end]) <= tolerance_)) {
-      ++row.end;
-    }
-    bands_.push_back({row.begin, row.end, steps_.size()});
+    steps_.reserve(steps);
+  }
+
+  PairingRow nextRow(const PairingRow& before, std::size_t i) {
+    PairingRow row;
+    row.begin = bands_[i].begin;
+    row.end = bands_[i].end;
     row.merits.push_back(before.upTo(row.begin));
     for (std::size_t j = row.begin; j < row.end; ++j) {
       row.merits.push_back(best(before, row.merits.back(), i, j));
@@ -101,15 +127,16 @@ class Pairing {
     return row;
   }
 
-  Merit best(const Row& before, const Merit& without_b, std::size_t i, std::size_t j) {
-    Merit merit = before.upTo(j + 1);
+  PairingMerit best(const PairingRow& before, const PairingMerit& without_b, std::size_t i,
+                    std::size_t j) {
+    PairingMerit merit = before.upTo(j + 1);
     Step step = Step::skip_a;
     if (without_b.isBetterThan(merit)) {
       merit = without_b;
       step = Step::skip_b;
     }
     const std::uint64_t apart = distance(a_[i], b_[j]);
-    Merit paired = before.upTo(j);
+    PairingMerit paired = before.upTo(j);
     ++paired.pairs;
     paired.distance += double(apart);
     if (apart <= tolerance_ && paired.isBetterThan(merit)) {
@@ -126,16 +153,8 @@ class Pairing {
   std::vector<Step> steps_;  // for each of a, those of its band
 };
 
-}  // namespace
-
-std::vector<StampPair> associate(Stamps a, Stamps b, std::int64_t tolerance) {
-  checkAscending("a", a);
-  checkAscending("b", b);
-  if (tolerance < 0) {
-    throw ArgumentError("tolerance", "is " + std::to_string(tolerance) + ", expected 0 or more");
-  }
-  return Pairing(a, b, static_cast<std::uint64_t>(tolerance)).pairs();
-}
-
+}  // namespace detail
 }  // namespace v1
 }  // namespace gslam
+
+#endif  // GSLAM_CORE_DETAIL_STAMP_PAIRING_H
