@@ -110,7 +110,9 @@ TEST(calibrationFile, KalibrsDistortions) {
     text = with(text, "[-0.28, 0.07, 0.0002, 1.76e-05]", coefficients);
     return parse(text).rig.cameras[0].camera;
   };
-  EXPECT_EQ(model("equidistant", "[0.1, 0.02, 0.003, 0.0004]").modelName(), "kannala_brandt");
+  const Camera fisheye = model("equidistant", "[0.1, 0.02, 0.003, 0.0004]");
+  EXPECT_EQ(fisheye.modelName(), "kannala_brandt");
+  EXPECT_EQ(fisheye.parameters(), (Values{458.5, 457.25, 367, 248, 0.1, 0.02, 0.003, 0.0004}));
   EXPECT_EQ(model("fov", "[0.9]").modelName(), "fov");
   EXPECT_EQ(model("none", "[]").modelName(), "pinhole");
   EXPECT_EQ(model("radtan", "[0, 0, 0, 0]").modelName(), "pinhole");
@@ -149,6 +151,28 @@ TEST(calibrationFile, KalibrsChainThatContradictsItselfIsSaid) {
   const Calibration found = parse(with(kKalibr, "cam1:\n", "cam1:\n" + pose));
   EXPECT_TRUE(says(found.remarks, "do not agree"));
   EXPECT_NEAR((found.rig.cameras[1].T_body_camera.inverse() * Vec3d{{0, 0, 0}})[0], 0.9, 1e-12);
+}
+
+// Only a later camera has a place by the IMU: the chain leads back from it.
+TEST(calibrationFile, KalibrsChainHangsOnTheFirstPlaceByTheImu) {
+  const std::string whole = kKalibr;
+  const std::size_t begin = whole.find("  T_cam_imu"), end = whole.find("  cam_overlaps");
+  const std::string pose =
+      "  T_cam_imu:\n  - [0.0, -1.0, 0.0, -0.10]\n  - [1.0, 0.0, 0.0, 0.021]\n"
+      "  - [0.0, 0.0, 1.0, 0.032]\n  - [0.0, 0.0, 0.0, 1.0]\n";
+  const std::string later =
+      with(whole.substr(0, begin) + whole.substr(end), "cam1:\n", "cam1:\n" + pose);
+  const Calibration expected = parse(kKalibr), found = parse(later);
+  EXPECT_EQ(found.body, "the IMU");
+  EXPECT_TRUE(found.rig.has_imu);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_TRUE(
+        found.rig.cameras[i].T_body_camera.isApprox(expected.rig.cameras[i].T_body_camera, 1e-12))
+        << i;
+  }
+  const std::size_t link = later.find("  T_cn_cnm1"), behind = later.find("  camera_model", link);
+  EXPECT_EQ(errorOf(later.substr(0, link) + later.substr(behind)),
+            "file: cam1 / T_cn_cnm1 is missing");
 }
 
 TEST(calibrationFile, OpenCvsPair) {
@@ -248,19 +272,32 @@ TEST(calibrationFile, AllOfColmapsModels) {
   const struct {
     const char* line;
     const char* model;
+    Values values;
   } models[] = {
-      {"1 SIMPLE_PINHOLE 640 480 500 320 240", "pinhole"},
-      {"1 PINHOLE 640 480 500 501 320 240", "pinhole"},
-      {"1 RADIAL 640 480 500 320 240 0.1 -0.01", "radtan"},
-      {"1 OPENCV 640 480 500 501 320 240 0.1 -0.01 0.001 0.002", "radtan"},
-      {"1 OPENCV_FISHEYE 640 480 500 501 320 240 0.1 -0.01 0.001 0.002", "kannala_brandt"},
-      {"1 SIMPLE_RADIAL_FISHEYE 640 480 500 320 240 0.1", "kannala_brandt"},
-      {"1 RADIAL_FISHEYE 640 480 500 320 240 0.1 -0.01", "kannala_brandt"},
-      {"1 FOV 640 480 500 501 320 240 0.9", "fov"}};
+      {"1 SIMPLE_PINHOLE 640 480 500 320 240", "pinhole", {500, 500, 319.5, 239.5}},
+      {"1 PINHOLE 640 480 500 501 320 240", "pinhole", {500, 501, 319.5, 239.5}},
+      {"1 SIMPLE_RADIAL 640 480 500 320 240 0.1", "radtan", {500, 500, 319.5, 239.5, 0.1, 0, 0, 0}},
+      {"1 RADIAL 640 480 500 320 240 0.1 -0.01",
+       "radtan",
+       {500, 500, 319.5, 239.5, 0.1, -0.01, 0, 0}},
+      {"1 RADIAL 640 480 500 320 240 0 0", "pinhole", {500, 500, 319.5, 239.5}},
+      {"1 OPENCV 640 480 500 501 320 240 0.1 -0.01 0.001 0.002",
+       "radtan",
+       {500, 501, 319.5, 239.5, 0.1, -0.01, 0.001, 0.002}},
+      {"1 OPENCV_FISHEYE 640 480 500 501 320 240 0.1 -0.01 0.001 0.002",
+       "kannala_brandt",
+       {500, 501, 319.5, 239.5, 0.1, -0.01, 0.001, 0.002}},
+      {"1 SIMPLE_RADIAL_FISHEYE 640 480 500 320 240 0.1",
+       "kannala_brandt",
+       {500, 500, 319.5, 239.5, 0.1, 0, 0, 0}},
+      {"1 RADIAL_FISHEYE 640 480 500 320 240 0.1 -0.01",
+       "kannala_brandt",
+       {500, 500, 319.5, 239.5, 0.1, -0.01, 0, 0}},
+      {"1 FOV 640 480 500 501 320 240 0.9", "fov", {500, 501, 319.5, 239.5, 0.9}}};
   for (const auto& each : models) {
     const Calibration found = parse(each.line);
     EXPECT_EQ(found.rig.cameras[0].camera.modelName(), each.model) << each.line;
-    EXPECT_EQ(found.rig.cameras[0].camera.parameter("cx"), 319.5);
+    EXPECT_EQ(found.rig.cameras[0].camera.parameters(), each.values) << each.line;
     EXPECT_NE(errorOf(std::string(each.line) + " 7"), "") << each.line;
   }
   EXPECT_TRUE(has(errorOf("1 THIN_PRISM_FISHEYE 640 480 1 1 1 1 0 0 0 0 0 0 0 0"),
@@ -294,10 +331,12 @@ TEST(calibrationFile, Dsos) {
   EXPECT_EQ(cameraOf("FOV 0.5 0.6 0.5 0.5 0.9").modelName(), "fov");
   EXPECT_EQ(cameraOf("RadTan 500 501 320 240 0.1 0.01 0.001 0.002").parameters(),
             (Values{500, 501, 320, 240, 0.1, 0.01, 0.001, 0.002}));
-  EXPECT_EQ(cameraOf("EquiDistant 500 501 320 240 0.1 0.01 0.001 0.002").modelName(),
-            "kannala_brandt");
-  EXPECT_EQ(cameraOf("KannalaBrandt 500 501 320 240 0.1 0.01 0.001 0.002").modelName(),
-            "kannala_brandt");
+  EXPECT_EQ(cameraOf("RadTan 500 501 320 240 0 0 0 0").modelName(), "pinhole");
+  for (const std::string model : {"EquiDistant", "KannalaBrandt"}) {
+    const Camera fisheye = cameraOf(model + " 500 501 320 240 0.1 0.01 0.001 0.002");
+    EXPECT_EQ(fisheye.modelName(), "kannala_brandt");
+    EXPECT_EQ(fisheye.parameters(), (Values{500, 501, 320, 240, 0.1, 0.01, 0.001, 0.002}));
+  }
   const std::string bare = "0.37 0.37 0.49 0.50 0.0034 0.0007 -0.002 0.0002" + tail;
   EXPECT_EQ(parse(bare).rig.cameras[0].camera.modelName(), "radtan");
   EXPECT_TRUE(says(parse(bare).remarks, "in TUM-VI's files they are EquiDistant"));
@@ -306,6 +345,11 @@ TEST(calibrationFile, Dsos) {
   EXPECT_EQ(parse(bare, options).rig.cameras[0].camera.modelName(), "kannala_brandt");
   EXPECT_TRUE(says(parse("0.5 0.6 0.5 0.5 0\n640 480\n0.4 0.53 0.5 0.5 0\n320 240\n").remarks,
                    "to 320 x 240"));
+  const Calibration longer =
+      parse(std::string(kDsoFov) + "0.1101\n");  // the baseline of stereo DSO
+  EXPECT_EQ(longer.rig.cameras[0].camera, fov.rig.cameras[0].camera);
+  EXPECT_TRUE(says(longer.remarks, "DSO does not read line 5"));
+  EXPECT_FALSE(says(fov.remarks, "does not read"));
 }
 
 TEST(calibrationFile, Svos) {
@@ -319,6 +363,14 @@ TEST(calibrationFile, Svos) {
       "cam_model: Pinhole\ncam_width: 752\ncam_height: 480\ncam_fx: 414.5\ncam_fy: 414.2\n"
       "cam_cx: 348.8\ncam_cy: 240.0\ncam_d0: -0.28\ncam_d1: 0.06\ncam_d2: 0.001\ncam_d3: 0.002\n";
   EXPECT_EQ(parse(pinhole).rig.cameras[0].camera.parameters(),
+            (Values{414.5, 414.2, 348.8, 240, -0.28, 0.06, 0.001, 0.002}));
+  EXPECT_EQ(parse(pinhole + "cam_d4: 0.003\n").rig.cameras[0].camera.parameters(),
+            (Values{414.5, 414.2, 348.8, 240, -0.28, 0.06, 0.001, 0.002, 0.003}));
+  const std::string straight = pinhole.substr(0, pinhole.find("cam_d0"));
+  EXPECT_EQ(parse(straight).rig.cameras[0].camera.modelName(), "pinhole");
+  const std::string fisheye = with(pinhole, "Pinhole", "Equidistant");
+  EXPECT_EQ(parse(fisheye).rig.cameras[0].camera.modelName(), "kannala_brandt");
+  EXPECT_EQ(parse(fisheye).rig.cameras[0].camera.parameters(),
             (Values{414.5, 414.2, 348.8, 240, -0.28, 0.06, 0.001, 0.002}));
 }
 
@@ -348,6 +400,126 @@ TEST(calibrationFile, StellasDepth) {
             (Values{435.2, 436.2, 367.4, 252.2, 0.1, -0.02, 0.001, -0.002, 0.003}));
   EXPECT_EQ(found.rig.cameras[1].kind, gslam::ImageKind::depth);
   EXPECT_NEAR(found.rig.cameras[1].depth_scale, 1 / 5000.0, 1e-15);
+}
+
+// OpenVSLAM's names have points; what they say is the same.
+std::string flat(const std::string& nested) {
+  std::string result, section, line;
+  for (std::size_t at = 0; at < nested.size(); at += line.size() + 1) {
+    line = nested.substr(at, nested.find('\n', at) - at);
+    if (line.compare(0, 2, "  ") != 0) {
+      section = line.substr(0, line.find(':')) + ".";
+    } else {
+      result += (section == "Preprocessing." ? "" : section) + line.substr(2) + "\n";
+    }
+  }
+  return result;
+}
+
+void expectAlike(const Calibration& found, const Calibration& expected) {
+  EXPECT_EQ(found.format, "stella");
+  ASSERT_EQ(found.rig.cameras.size(), expected.rig.cameras.size());
+  for (std::size_t i = 0; i < found.rig.cameras.size(); ++i) {
+    const gslam::CameraSensor &a = found.rig.cameras[i], &b = expected.rig.cameras[i];
+    EXPECT_EQ(a.camera, b.camera);
+    EXPECT_EQ(a.kind, b.kind);
+    EXPECT_EQ(a.depth_scale, b.depth_scale);
+    EXPECT_EQ(a.rate, b.rate);
+    EXPECT_TRUE(a.T_body_camera.isApprox(b.T_body_camera, 1e-15));
+  }
+}
+
+const char* const kStellaPair = R"(Camera:
+  setup: "stereo"
+  model: "perspective"
+  fx: 435.2
+  fy: 436.2
+  cx: 367.4
+  cy: 252.2
+  k1: 0.0
+  k2: 0.0
+  p1: 0.0
+  p2: 0.0
+  k3: 0.0
+  fps: 20.0
+  cols: 752
+  rows: 480
+  focal_x_baseline: 47.872
+StereoRectifier:
+  model: "fisheye"
+  K_left: [458.5, 0.0, 367.2, 0.0, 457.25, 248.5, 0.0, 0.0, 1.0]
+  D_left: [0.1, -0.02, 0.003, -0.0004]
+  R_left: [1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0]
+  K_right: [457.5, 0.0, 379.9, 0.0, 456.25, 255.5, 0.0, 0.0, 1.0]
+  D_right: [0.2, -0.01, 0.002, -0.0003]
+  R_right: [0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]
+)";
+
+TEST(calibrationFile, OpenVslamsFlatSettings) {
+  expectAlike(parse(flat(kStella)), parse(kStella));
+  expectAlike(parse(flat(kStellaPair)), parse(kStellaPair));
+  EXPECT_TRUE(
+      has(errorOf(with(flat(kStella), "Camera.fy: 436.2\n", "")), "file: Camera.fy is missing"));
+  EXPECT_TRUE(has(errorOf(with(flat(kStella), "Camera.model: \"perspective\"\n", "")),
+                  "file: Camera.model is missing"));
+  EXPECT_TRUE(
+      has(errorOf(with(flat(kStella), "435.2", "-435.2")), "file: Camera is no camera: fx"));
+  EXPECT_TRUE(has(errorOf(with(flat(kStellaPair), "StereoRectifier.R_right", "StereoRectifier.R")),
+                  "file: StereoRectifier.R_right is missing"));
+}
+
+TEST(calibrationFile, StellasFisheyePair) {
+  const Calibration found = parse(kStellaPair);
+  ASSERT_EQ(found.rig.cameras.size(), 2U);
+  EXPECT_EQ(found.rig.cameras[0].camera.modelName(), "kannala_brandt");
+  EXPECT_EQ(found.rig.cameras[0].camera.parameters(),
+            (Values{458.5, 457.25, 367.2, 248.5, 0.1, -0.02, 0.003, -0.0004}));
+  EXPECT_EQ(found.rig.cameras[1].camera.parameters(),
+            (Values{457.5, 456.25, 379.9, 255.5, 0.2, -0.01, 0.002, -0.0003}));
+  // R_left takes (x, y, z) to (x, -z, y), R_right to (-y, x, z); between the rectified ones is the
+  // baseline, 47.872 / 435.2, along x. A point (1, 2, 3) of the left camera is (1, -3, 2) and
+  // (1 - b, -3, 2) rectified, (-3, -(1 - b), 2) in the right one.
+  const double b = 47.872 / 435.2;
+  const Vec3d in_right = found.rig.cameras[1].T_body_camera.inverse() * Vec3d{{1, 2, 3}};
+  EXPECT_LT((in_right - Vec3d{{-3, -(1 - b), 2}}).norm(), 1e-12);
+}
+
+TEST(calibrationFile, OrbSlamsScaleIsSaid) {
+  EXPECT_FALSE(says(parse(kOrbslam2).remarks, "scale the images"));
+  const std::string scaled = std::string(kOrbslam2) + "Camera.imageScale: 0.5\n";
+  EXPECT_TRUE(says(parse(scaled).remarks, "ORB-SLAM would scale the images"));
+  EXPECT_TRUE(says(parse(scaled + "DepthMapFactor: 5000.0\n").remarks, "scale the images"));
+  EXPECT_TRUE(parse(std::string(kOrbslam2) + "Camera.imageScale: 1.0\n").remarks.empty());
+}
+
+TEST(calibrationFile, OrbSlamsFisheyePair) {
+  const std::string text =
+      "%YAML:1.0\nCamera.type: \"KannalaBrandt8\"\nCamera.fx: 190.5\nCamera.fy: 190.25\n"
+      "Camera.cx: 254.5\nCamera.cy: 256.5\nCamera.k1: 0.0034\nCamera.k2: 0.0007\n"
+      "Camera.k3: -0.002\nCamera.k4: 0.0002\nCamera2.fx: 191.5\nCamera2.fy: 191.25\n"
+      "Camera2.cx: 252.5\nCamera2.cy: 254.5\nCamera2.k1: 0.0035\nCamera2.k2: 0.0008\n"
+      "Camera2.k3: -0.003\nCamera2.k4: 0.0003\nCamera.width: 512\nCamera.height: 512\n"
+      "Camera.fps: 20.0\n"
+      "Tlr: !!opencv-matrix\n  rows: 3\n  cols: 4\n  dt: f\n"
+      "  data: [0.0, -1.0, 0.0, 0.1, 1.0, 0.0, 0.0, 0.2, 0.0, 0.0, 1.0, 0.3]\n"
+      "Tbc: !!opencv-matrix\n  rows: 4\n  cols: 4\n  dt: f\n"
+      "  data: [1.0, 0.0, 0.0, 0.01, 0.0, 0.0, -1.0, 0.02, 0.0, 1.0, 0.0, 0.03, 0.0, 0.0, 0.0, "
+      "1.0]\n"
+      "IMU.NoiseGyro: 0.004\nIMU.NoiseAcc: 0.04\nIMU.GyroWalk: 2.2e-5\nIMU.AccWalk: 8.6e-4\n"
+      "IMU.Frequency: 200\n";
+  const Calibration found = parse(text);
+  ASSERT_EQ(found.rig.cameras.size(), 2U);
+  EXPECT_EQ(found.rig.cameras[0].camera.modelName(), "kannala_brandt");
+  EXPECT_EQ(found.rig.cameras[0].camera.parameters(),
+            (Values{190.5, 190.25, 254.5, 256.5, 0.0034, 0.0007, -0.002, 0.0002}));
+  EXPECT_EQ(found.rig.cameras[1].camera.parameters(),
+            (Values{191.5, 191.25, 252.5, 254.5, 0.0035, 0.0008, -0.003, 0.0003}));
+  // Tlr takes (1, 2, 3) of the second camera to (-2 + 0.1, 1 + 0.2, 3.3) of the first, and Tbc
+  // that, (x, y, z), to (x + 0.01, -z + 0.02, y + 0.03) of the IMU.
+  const Vec3d in_imu = found.rig.cameras[1].T_body_camera * Vec3d{{1, 2, 3}};
+  EXPECT_LT((in_imu - Vec3d{{-1.89, -3.28, 1.23}}).norm(), 1e-6);
+  EXPECT_EQ(errorOf(with(text, "0.004\n", "-0.004\n")),
+            "file: IMU.NoiseGyro is negative, expected 0 or more");
 }
 
 TEST(calibrationFile, SaysWhereWhatIsWrong) {

@@ -83,6 +83,18 @@ TEST(read_dronemap, all_frames_have_positions_but_those_of_mono) {
   }
 }
 
+TEST(read_dronemap, positions_with_one_stamp_are_taken_once) {
+  const TempFolder folder;
+  writeUnified(folder);
+  folder.write("seq/gps.txt", "10.4,108.7,34.2,500\n10.4,108.9,34.2,500\n10.6,108.8,34.25,500\n");
+  const auto dataset = openWith(gslam::droneMapFactory(), folder / "seq");
+  std::size_t count = 0;
+  for (const auto& frame : reading_case::allFrames(*dataset)) count += frame->gnss.size();
+  EXPECT_EQ(count, 2U);
+  EXPECT_TRUE(hasRemark(dataset->info(),
+                        "skipped 1 samples of gps.txt that have the stamp of another: 10.4"));
+}
+
 TEST(read_dronemap, an_archive_reads_the_same) {
   const TempFolder folder;
   writeUnified(folder);

@@ -194,6 +194,11 @@ TEST(readEuroc, ACalibrationInPlaceOfItsOwn) {
               1e-12);
 }
 
+TEST(readEuroc, TheLicenceIsThatOfEuroc) {
+  NEEDS_TEST_DATA();
+  EXPECT_TRUE(has(openEuroc(realFolder())->info().licence, "EuRoC MAV, ASL, ETH Zurich"));
+}
+
 // What export writes of a computed world, in a folder.
 class Exported {
  public:
@@ -268,6 +273,89 @@ TEST(readEuroc, TheFolderMav0AndArchivesAreTheSame) {
   EXPECT_EQ(openEuroc(exported.folder().path())->info().name, "seq");
   EXPECT_EQ(openEuroc(exported.folder() / "seq2.zip")->info().name, "V1_07");
   EXPECT_EQ(openEuroc(exported.folder() / "plain.zip")->info().name, "plain");
+}
+
+TEST(readEuroc, OthersInTheSameLayoutHaveNotItsLicence) {
+  const Exported exported;
+  EXPECT_EQ(openEuroc(exported.path())->info().licence, "");
+  fs::rename(exported.path(), exported.folder() / "MH_03_medium");
+  EXPECT_TRUE(has(openEuroc(exported.folder().path())->info().licence, "EuRoC MAV"));
+}
+
+// A pinhole in OpenCV's file, for images of 64 x 48.
+std::string pinholeOf(double focal, bool is_sized) {
+  const std::string f = std::to_string(focal);
+  return std::string("%YAML:1.0\n---\n") + (is_sized ? "image_width: 64\nimage_height: 48\n" : "") +
+         "camera_matrix: !!opencv-matrix\n  rows: 3\n  cols: 3\n  dt: d\n  data: [" + f +
+         ", 0., 31.5, 0., " + f + ", 23.5, 0., 0., 1.]\n";
+}
+
+void expectPlaces(const gslam::SensorRig& rig, const SE3d& cam0, const SE3d& cam1) {
+  EXPECT_TRUE(rig.cameras[0].T_body_camera.isApprox(cam0, 1e-9));
+  EXPECT_TRUE(rig.cameras[1].T_body_camera.isApprox(cam1, 1e-9));
+}
+
+TEST(readEuroc, ACalibrationWithoutPlacesLeavesCamerasWhereTheyAre) {
+  const Exported exported;
+  const gslam::SensorRig own = openEuroc(exported.path())->info().sensors;
+  ASSERT_GT(own.cameras[0].T_body_camera.translation().norm() +
+                own.cameras[0].T_body_camera.rotation().angle(),
+            0.01);
+  const std::string file = exported.folder() / "mono.yaml";
+  const Svar parameters = Svar::object({{"calibration", file}});
+  for (const bool is_sized : {true, false}) {  // without a size it is that of the images
+    writeText(file, pinholeOf(50, is_sized));
+    const auto dataset = openEuroc(exported.path(), parameters);
+    const gslam::SensorRig& rig = dataset->info().sensors;
+    EXPECT_EQ(rig.cameras[0].camera.parameter("fx"), 50);
+    EXPECT_EQ(rig.cameras[0].camera.width(), 64);
+    EXPECT_EQ(rig.cameras[1].camera, own.cameras[1].camera);
+    expectPlaces(rig, own.cameras[0].T_body_camera, own.cameras[1].T_body_camera);
+    EXPECT_TRUE(says(dataset->info().remarks, "they stay where the dataset has them"));
+    EXPECT_TRUE(says(dataset->info().remarks, "has no camera 1"));
+  }
+  // COLMAP has models of both, and says of neither where it is.
+  writeText(file, "1 PINHOLE 64 48 50 50 32 24\n2 PINHOLE 64 48 60 60 32 24\n");
+  const auto dataset = openEuroc(exported.path(), parameters);
+  EXPECT_EQ(dataset->info().sensors.cameras[1].camera.parameter("fx"), 60);
+  expectPlaces(dataset->info().sensors, own.cameras[0].T_body_camera, own.cameras[1].T_body_camera);
+}
+
+TEST(readEuroc, ACalibrationOfAPairMovesTheSecond) {
+  const Exported exported;
+  const SE3d first = openEuroc(exported.path())->info().sensors.cameras[0].T_body_camera;
+  const std::string file = exported.folder() / "pair.yaml";
+  writeText(file,
+            "%YAML:1.0\n---\nimage_width: 64\nimage_height: 48\n"
+            "K1: [[50., 0., 31.5], [0., 50., 23.5], [0., 0., 1.]]\nD1: [0., 0., 0., 0.]\n"
+            "K2: [[60., 0., 31.5], [0., 60., 23.5], [0., 0., 1.]]\nD2: [0., 0., 0., 0.]\n"
+            "R: [[1., 0., 0.], [0., 1., 0.], [0., 0., 1.]]\nT: [-0.25, 0., 0.]\n");
+  const auto dataset = openEuroc(exported.path(), Svar::object({{"calibration", file}}));
+  const SE3d right(SO3d(), Vec3d{{0.25, 0, 0}});
+  expectPlaces(dataset->info().sensors, first, first * right);
+  EXPECT_TRUE(says(dataset->info().remarks, "cam0 stays where the dataset has it"));
+  // The same where the first camera is not read.
+  const SE3d second = openEuroc(exported.path())->info().sensors.cameras[1].T_body_camera;
+  const auto alone =
+      openEuroc(exported.path(), Svar::object({{"calibration", file}, {"cameras", "1"}}));
+  EXPECT_TRUE(alone->info().sensors.cameras[0].T_body_camera.isApprox(second, 1e-12));
+}
+
+TEST(readEuroc, WhatACalibrationReplacesMayBeWrong) {
+  const Exported exported;
+  const gslam::SensorRig own = openEuroc(exported.path())->info().sensors;
+  const std::string file = exported.folder() / "mono.yaml";
+  writeText(file, pinholeOf(50, true));
+  exported.replace("mav0/cam0/sensor.yaml", "resolution", "resolutoin");
+  EXPECT_TRUE(has(exported.error(), "cam0/sensor.yaml: resolution is missing"));
+  const auto dataset = openEuroc(exported.path(), Svar::object({{"calibration", file}}));
+  EXPECT_EQ(dataset->info().sensors.cameras[0].camera.parameter("fx"), 50);
+  expectPlaces(dataset->info().sensors, own.cameras[0].T_body_camera, own.cameras[1].T_body_camera);
+  EXPECT_TRUE(says(dataset->info().remarks, "its T_BS was taken, since"));
+  writeText(exported.path("mav0/cam0/sensor.yaml"), "sensor_type: [\n");
+  const auto other = openEuroc(exported.path(), Svar::object({{"calibration", file}}));
+  EXPECT_TRUE(says(other->info().remarks, "its T_BS was taken to be the identity, since"));
+  EXPECT_EQ(allFrames(*other).size(), 6U);
 }
 
 TEST(readEuroc, WhatIsMissingIsSaid) {
@@ -362,7 +450,25 @@ TEST(readEuroc, OrderAndTwinsAreSaid) {
   EXPECT_EQ(dataset->info().frame_count, 6U);
   EXPECT_TRUE(says(remarks, "6 images that have the stamp of another in mav0/cam0/data.csv"));
   EXPECT_TRUE(says(remarks, "1 lines of mav0/imu0/data.csv have an earlier stamp"));
+  EXPECT_FALSE(says(remarks, "samples of mav0/imu0/data.csv"));
   EXPECT_TRUE(says(remarks, "1 poses of mav0/state_groundtruth_estimate0/data.csv"));
+}
+
+TEST(readEuroc, InertialSamplesWithOneStampAreTakenOnce) {
+  const Exported exported;
+  std::size_t expected = 0, found = 0;
+  for (const auto& frame : allFrames(*openEuroc(exported.path()))) expected += frame->imu.size();
+  const std::string imu = exported.text("mav0/imu0/data.csv");
+  const std::size_t second = imu.find('\n', imu.find('\n') + 1) + 1;
+  const std::string line = imu.substr(second, imu.find('\n', second) + 1 - second);
+  writeText(exported.path("mav0/imu0/data.csv"),
+            imu.substr(0, second) + line + line + imu.substr(second));
+  const auto dataset = openEuroc(exported.path());
+  for (const auto& frame : allFrames(*dataset)) found += frame->imu.size();
+  EXPECT_EQ(found, expected);
+  EXPECT_TRUE(says(dataset->info().remarks,
+                   "skipped 2 samples of mav0/imu0/data.csv that have the stamp of another"))
+      << testing::PrintToString(dataset->info().remarks);
 }
 
 TEST(readEuroc, SaysWhichFileAndLineIsWrong) {

@@ -75,6 +75,38 @@ TEST(readTumMono, ReadsWhatWasExported) {
   }
 }
 
+TEST(readTumMono, TheLicenceIsThatOfTumMonoOnly) {
+  const Exported exported;
+  EXPECT_TRUE(has(openTumMono(exported.path())->info().licence, "TUM monoVO"));
+  for (const char* name : {"sequence_00", "sequence_51", "sequence_077", "mine"}) {
+    fs::rename(exported.path(), exported.folder() / name);
+    EXPECT_EQ(openTumMono(exported.folder() / name)->info().licence, "") << name;
+    fs::rename(exported.folder() / name, exported.path());
+  }
+}
+
+// Lines in the form of the published sequences, whatever export makes of it: times.txt with id, s
+// and ms, to ten digits.
+TEST(readTumMono, ReadsLinesAsTheyArePublished) {
+  const TempFolder folder;
+  for (int i = 0; i < 3; ++i) {
+    writeImage(folder / ("images/0000" + std::to_string(i) + ".jpg"), numbered(8, 6, i));
+  }
+  writeText(folder / "times.txt",
+            "00000 1435850214.5384142399 0.1996353716\n"
+            "00001 1435850214.5884389877 0.2043156773\n"
+            "00002 1435850214.638434 12.5\n");
+  const auto dataset = openTumMono(folder.path());
+  const auto frames = allFrames(*dataset);
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_EQ(frames[0]->stamp, 1435850214538414240);  // to the nearest nanosecond
+  EXPECT_EQ(frames[1]->stamp, 1435850214588438988);
+  EXPECT_EQ(frames[2]->stamp, 1435850214638434000);
+  EXPECT_EQ(frames[0]->images[0].exposure, 199635);
+  EXPECT_EQ(frames[1]->images[0].exposure, 204316);
+  EXPECT_EQ(frames[2]->images[0].exposure, 12500000);
+}
+
 TEST(readTumMono, ImagesInAnArchiveOfTheirOwn) {
   const Exported exported;
   const auto expected = openTumMono(exported.path());

@@ -107,6 +107,130 @@ TEST(readTumVi, AnArchiveReadsTheSame) {
   EXPECT_EQ(gslam::datasetFormatOf(exported.folder() / "seq.zip"), "tumvi");
 }
 
+TEST(readTumVi, TheFolderMav0HasDsoBesideIt) {
+  const Exported exported;
+  const auto expected = openTumVi(exported.path());
+  for (const std::string end : {"", "/", "/."}) {
+    const auto found = openTumVi(exported.path("mav0") + end);
+    expected->seek(0);
+    expectSame(*expected, *found);
+    found->seek(0);
+    EXPECT_GT(found->next()->images[0].exposure, 0);
+    EXPECT_EQ(found->info().name, "room1_512_16");
+    EXPECT_FALSE(says(found->info().remarks, "there is no dso"));
+  }
+  fs::rename(exported.path("mav0"), exported.folder() / "alone");  // called otherwise, it is alone
+  EXPECT_TRUE(says(openTumVi(exported.folder() / "alone")->info().remarks, "there is no dso/cam"));
+}
+
+TEST(readTumVi, TheLicenceIsThatOfTumViOnly) {
+  const Exported exported;
+  EXPECT_EQ(openTumVi(exported.path())->info().licence, "");
+  fs::rename(exported.path(), exported.folder() / "dataset-room1_512_16");
+  EXPECT_TRUE(
+      has(openTumVi(exported.folder() / "dataset-room1_512_16")->info().licence, "CC BY 4.0"));
+}
+
+// Rows in the form of the published archives, whatever export makes of it: dso/cam0/times.txt in
+// ns, s and ms, and mav0/mocap0/data.csv in ns with w first (see vision.in.tum.de/data/datasets/
+// visual-inertial-dataset).
+TEST(readTumVi, ReadsRowsAsTheyArePublished) {
+  const TempFolder folder;
+  const std::string stamps[] = {"1520530308199447626", "1520530308249448626"};
+  std::string images = "#timestamp [ns],filename\n";
+  for (int i = 0; i < 2; ++i) {
+    images += stamps[i] + "," + stamps[i] + ".png\n";
+    writeImage(folder / ("mav0/cam0/data/" + stamps[i] + ".png"), numbered(8, 6, i, CV_16UC1));
+  }
+  writeText(folder / "mav0/cam0/data.csv", images);
+  writeText(folder / "dso/cam0/times.txt",
+            "# timestamp[ns]\ttimestamp[s]\texposure_time[ms]\n"
+            "1520530308199447626 1520530308.199447632 6.2084\n"
+            "1520530308249448626 1520530308.249448538 0.5\n");
+  writeText(folder / "mav0/mocap0/data.csv",
+            "#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], "
+            "q_RS_y [], q_RS_z []\n"
+            "1520530308206883817,0.5,-0.25,1.5,0.8,0,0,0.6\n"
+            "1520530308215282817,0.75,-0.25,1.5,0.8,0,0,0.6\n");
+  const auto dataset = openTumVi(folder.path());
+  const auto first = dataset->next(), second = dataset->next();
+  EXPECT_EQ(first->stamp, 1520530308199447626);
+  EXPECT_EQ(first->images[0].exposure, 6208400);
+  EXPECT_EQ(second->images[0].exposure, 500000);
+  const gslam::Trajectory& truth = dataset->info().ground_truth;
+  ASSERT_EQ(truth.size(), 2U);
+  EXPECT_EQ(truth[0].stamp, 1520530308206883817);
+  // w = 0.8, z = 0.6: x turns to (0.8^2 - 0.6^2, 2 0.8 0.6, 0).
+  EXPECT_LT((truth[0].pose * Vec3d{{1, 0, 0}} - Vec3d{{0.78, 0.71, 1.5}}).norm(), 1e-12);
+}
+
+TEST(readTumVi, ImagesWithoutExposuresAreSaid) {
+  const Exported exported;
+  const std::string times = exported.text("dso/cam0/times.txt");
+  const std::string stamp = std::to_string(frameAt(exported.world(), 2)->stamp);
+  const std::size_t line = times.find(stamp), end = times.find('\n', line) + 1;
+  ASSERT_NE(line, std::string::npos);
+  writeText(exported.path("dso/cam0/times.txt"), times.substr(0, line) + times.substr(end));
+  const auto dataset = openTumVi(exported.path());
+  EXPECT_TRUE(says(dataset->info().remarks,
+                   "skipped 1 exposures that dso/cam0/times.txt does not have: mav0/cam0/data/" +
+                       stamp + ".png"));
+  const auto frames = allFrames(*dataset);
+  EXPECT_EQ(frames[2]->images[0].exposure, 0);
+  EXPECT_GT(frames[2]->images[1].exposure, 0);
+  EXPECT_GT(frames[3]->images[0].exposure, 0);
+}
+
+// Where no nanoseconds are those of an image, its seconds are, within a microsecond.
+TEST(readTumVi, ExposuresBySeconds) {
+  const Exported exported;
+  std::string times;
+  for (std::size_t i = 0; i < 5; ++i) {
+    const std::int64_t stamp = frameAt(exported.world(), i)->stamp;
+    const std::int64_t rounded = stamp + (i < 4 ? 900 : 1100);
+    times += std::to_string(stamp + 7777) + " " + std::to_string(rounded / 1000000000) + "." +
+             padded(std::size_t(rounded % 1000000000), 9) + " 1.5\n";
+  }
+  writeText(exported.path("dso/cam1/times.txt"), times);
+  const auto dataset = openTumVi(exported.path());
+  EXPECT_TRUE(says(dataset->info().remarks, "the nanoseconds of dso/cam1/times.txt are not those"));
+  EXPECT_TRUE(says(dataset->info().remarks, "1 exposures that dso/cam1/times.txt does not have"));
+  const auto frames = allFrames(*dataset);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(frames[i]->images[1].exposure, i < 4 ? 1500000 : 0);
+  }
+}
+
+// Eight numbers without a word are EquiDistant here; where the camera is, dso/ says.
+TEST(readTumVi, DsosBareCalibrationOfTheUser) {
+  const Exported exported;
+  const std::string file = exported.folder() / "camera.txt";
+  writeText(file, "0.37 0.37 0.49 0.50 0.0034 0.0007 -0.002 0.0002\n64 64\ncrop\n64 64\n");
+  const gslam::SensorRig own = openTumVi(exported.path())->info().sensors;
+  const Svar parameters = Svar::object({{"calibration", file}, {"cameras", "0"}});
+  const gslam::SensorRig found = openTumVi(exported.path(), parameters)->info().sensors;
+  EXPECT_EQ(found.cameras[0].camera.modelName(), "kannala_brandt");
+  EXPECT_EQ(found.cameras[0].camera.parameter("fx"), 0.37 * 64);
+  EXPECT_TRUE(found.cameras[0].T_body_camera.isApprox(own.cameras[0].T_body_camera, 1e-12));
+  EXPECT_EQ(found.imu.gyro_noise, own.imu.gyro_noise);
+  // What it replaces may be wrong.
+  writeText(exported.path("dso/camchain.yaml"), "cam0:\n  camera_model: pinhole\n");
+  EXPECT_TRUE(has(errorOf(gslam::tumViFactory(), exported.path()), "dso/camchain.yaml: cam0 / "));
+  EXPECT_TRUE(says(openTumVi(exported.path(), parameters)->info().remarks,
+                   "a file that the parameter calibration replaces was not used: "));
+}
+
+TEST(readTumVi, ASensorsFileThatKalibrsReplaces) {
+  const Exported exported;
+  writeText(exported.path("mav0/cam0/sensor.yaml"), "%YAML:1.0\nsensor_type: camera\n");
+  const auto dataset = openTumVi(exported.path());
+  EXPECT_EQ(dataset->info().sensors.cameras[0].camera,
+            exported.world().info().sensors.cameras[0].camera);
+  EXPECT_TRUE(says(dataset->info().remarks, "that another calibration replaces"));
+  fs::remove(exported.path("dso/camchain.yaml"));
+  EXPECT_TRUE(has(errorOf(gslam::tumViFactory(), exported.path()), "resolution is missing"));
+}
+
 TEST(readTumVi, WithoutDso) {
   const Exported exported;
   fs::remove_all(exported.path("dso"));

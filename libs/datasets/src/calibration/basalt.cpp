@@ -47,7 +47,9 @@ Camera cameraOf(const Fields& camera, ImageSize size) {
   const Fields values = camera["intrinsics"];
   std::vector<double> parameters;
   for (const std::string& name : model.names) parameters.push_back(values[name].number());
-  return makeCamera(values, model.ours, size, parameters);
+  if (model.ours != std::string("radtan")) return makeCamera(values, model.ours, size, parameters);
+  const auto first = parameters.begin() + 4;
+  return radtanOrPinhole(values, size, {parameters.begin(), first}, {first, parameters.end()});
 }
 
 SE3d poseOf(const Fields& pose) {
@@ -61,27 +63,17 @@ SE3d poseOf(const Fields& pose) {
               {{pose["px"].number(), pose["py"].number(), pose["pz"].number()}});
 }
 
-// One number, or one for each axis, of which the largest counts.
-double noiseOf(const Fields& root, const std::string& name, Calibration& result) {
-  if (!root.has(name)) return 0;
-  const std::vector<double> values = root[name].numbers();
-  if (values.size() != 1 && values.size() != 3) root[name].numbers(3);
-  const auto ends = std::minmax_element(values.begin(), values.end());
-  if (*ends.first < 0) root[name].fail("is negative, expected 0 or more");
-  if (*ends.first != *ends.second) {
-    result.remarks.push_back(name + " differs between axes: the largest was taken");
-  }
-  return *ends.second;
-}
-
 void readImu(const Fields& root, Calibration& result) {
   result.rig.has_imu = true;
   ImuCalibration& imu = result.rig.imu;
   imu.rate = root.number("imu_update_rate", 0);
-  imu.gyro_noise = noiseOf(root, "gyro_noise_std", result);
-  imu.accel_noise = noiseOf(root, "accel_noise_std", result);
-  imu.gyro_bias_walk = noiseOf(root, "gyro_bias_std", result);
-  imu.accel_bias_walk = noiseOf(root, "accel_bias_std", result);
+  const auto noise = [&](const char* name) {
+    return root.has(name) ? noiseOf(root[name], result) : 0;
+  };
+  imu.gyro_noise = noise("gyro_noise_std");
+  imu.accel_noise = noise("accel_noise_std");
+  imu.gyro_bias_walk = noise("gyro_bias_std");
+  imu.accel_bias_walk = noise("accel_bias_std");
   if (imu.gyro_noise == 0) result.remarks.push_back("the noise of the IMU is not in this file");
   for (const char* name : {"calib_accel_bias", "calib_gyro_bias"}) {
     if (!root.has(name)) continue;

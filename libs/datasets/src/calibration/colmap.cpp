@@ -63,8 +63,11 @@ CameraSensor readCamera(FieldReader& reader, const std::string& source) {
   }
   reader.endLine();
   values.resize(4 + model.all_coefficients);
-  return makeSensor("camera" + id,
-                    makeCamera(source, reader.line(), model.ours, {width, height}, values));
+  const ImageSize size = {width, height};
+  const Camera camera = model.ours == std::string("radtan")
+                            ? radtanOrPinhole(source, reader.line(), size, values)
+                            : makeCamera(source, reader.line(), model.ours, size, values);
+  return makeSensor("camera" + id, camera);
 }
 
 }  // namespace

@@ -97,6 +97,14 @@ Camera radtanOrPinhole(const Fields& where, ImageSize size, const std::vector<do
   return makeCamera(where, "radtan", size, joined(intrinsics, coefficients));
 }
 
+Camera radtanOrPinhole(const std::string& source, std::size_t line, ImageSize size,
+                       const std::vector<double>& parameters) {
+  const std::vector<double> intrinsics(parameters.begin(), parameters.begin() + 4);
+  const std::vector<double> coefficients(parameters.begin() + 4, parameters.end());
+  if (!hasOther(coefficients, 0)) return makeCamera(source, line, "pinhole", size, intrinsics);
+  return makeCamera(source, line, "radtan", size, parameters);
+}
+
 SE3d placeOfRight(const SO3d& R_rectified_left, const SO3d& R_rectified_right, double baseline) {
   const SO3d R_left_rectified = R_rectified_left.inverse();
   return SE3d(R_left_rectified * R_rectified_right, R_left_rectified * Vec3d{{baseline, 0, 0}});
@@ -109,6 +117,23 @@ std::vector<double> intrinsicsOfMatrix(const Fields& matrix) {
   }
   if (k[1] != 0) matrix.fail("has skew, expected 0 in the first row's second column");
   return {k[0], k[4], k[2], k[5]};
+}
+
+std::vector<double> membersOf(const Fields& object, const std::vector<std::string>& names) {
+  std::vector<double> values;
+  for (const std::string& name : names) values.push_back(object[name].number());
+  return values;
+}
+
+double noiseOf(const Fields& density, Calibration& result) {
+  const std::vector<double> values = density.numbers();
+  if (values.size() != 1 && values.size() != 3) density.numbers(3);
+  const auto ends = std::minmax_element(values.begin(), values.end());
+  if (*ends.first < 0) density.fail("is negative, expected 0 or more");
+  if (*ends.first != *ends.second) {
+    result.remarks.push_back(density.path() + " differs between axes: the largest was taken");
+  }
+  return *ends.second;
 }
 
 CameraSensor depthOf(const CameraSensor& colour, const Fields& factor) {

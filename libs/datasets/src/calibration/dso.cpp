@@ -84,6 +84,14 @@ std::vector<double> inPixels(std::vector<double> values, ImageSize size) {
   return values;
 }
 
+Camera cameraOf(const FirstLine& first, const std::string& source, ImageSize size) {
+  std::vector<double> values = inPixels(first.values, size);
+  const std::string model = first.model->ours;
+  if (model == "pinhole") values.resize(4);  // DSO has a fifth, 0
+  if (model == "radtan") return radtanOrPinhole(source, first.line, size, values);
+  return makeCamera(source, first.line, model, size, values);
+}
+
 ImageSize readSize(FieldReader& reader, const char* what) {
   needLine(reader, what);
   ImageSize size;
@@ -138,12 +146,10 @@ Calibration parseDso(const Document& document) {
   const ImageSize size = readSize(reader, "width and height of the images");
   readOutput(reader, result.remarks);
   if (reader.nextLine()) {
-    reader.fail(reader.place(), "there is a fifth line, expected the end of the file");
+    result.remarks.push_back("DSO does not read line " + std::to_string(reader.line()) +
+                             " and what is behind it: nor was it read here");
   }
-  std::vector<double> values = inPixels(first.values, size);
-  if (first.model->numbers == 5 && first.model->ours == std::string("pinhole")) values.resize(4);
-  const Camera camera = makeCamera(document.source, first.line, first.model->ours, size, values);
-  result.rig.cameras.push_back(makeSensor("camera", camera));
+  result.rig.cameras.push_back(makeSensor("camera", cameraOf(first, document.source, size)));
   result.body = "the camera";
   return result;
 }

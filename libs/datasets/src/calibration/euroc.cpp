@@ -24,22 +24,20 @@ void readCamera(const Fields& root, Calibration& result) {
   result.rig.cameras.push_back(makeSensor("camera", camera, root["T_BS"].pose(), rate));
 }
 
-double noiseOf(const Fields& root, const std::string& name, Calibration& result) {
-  const double value = root.number(name, 0);
-  if (value < 0) root[name].fail("is negative, expected 0 or more");
-  if (!root.has(name)) result.remarks.push_back(name + " is not in this file");
-  return value;
-}
-
 void readImu(const Fields& root, Calibration& result) {
   result.rig.has_imu = true;
   ImuCalibration& imu = result.rig.imu;
   imu.T_body_imu = root["T_BS"].pose();
   imu.rate = root.number("rate_hz", 0);
-  imu.gyro_noise = noiseOf(root, "gyroscope_noise_density", result);
-  imu.gyro_bias_walk = noiseOf(root, "gyroscope_random_walk", result);
-  imu.accel_noise = noiseOf(root, "accelerometer_noise_density", result);
-  imu.accel_bias_walk = noiseOf(root, "accelerometer_random_walk", result);
+  const auto noise = [&](const char* name) {
+    if (root.has(name)) return noiseOf(root[name], result);
+    result.remarks.push_back(std::string(name) + " is not in this file");
+    return 0.0;
+  };
+  imu.gyro_noise = noise("gyroscope_noise_density");
+  imu.gyro_bias_walk = noise("gyroscope_random_walk");
+  imu.accel_noise = noise("accelerometer_noise_density");
+  imu.accel_bias_walk = noise("accelerometer_random_walk");
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ constexpr double kMatrixTolerance = 1e-3;
 const Svar* Fields::find(const std::string& name) const {
   if (!isObject()) return nullptr;
   for (const Svar::Member& member : value_.members()) {
-    if (member.first == name) return member.second.isNull() ? nullptr : &member.second;
+    if (member.first == prefix_ + name) return member.second.isNull() ? nullptr : &member.second;
   }
   return nullptr;
 }
@@ -26,7 +26,14 @@ const Svar* Fields::find(const std::string& name) const {
 Fields Fields::operator[](const std::string& name) const {
   const Svar* const found = find(name);
   if (found == nullptr) failMissing(name);
-  return Fields(*found, source_, path_.empty() ? name : path_ + " / " + name);
+  return Fields(*found, source_, (path_.empty() ? "" : path_ + " / ") + prefix_ + name);
+}
+
+Fields Fields::section(const std::string& name) const {
+  if (has(name)) return (*this)[name];
+  Fields same = *this;
+  same.prefix_ = prefix_ + name + ".";
+  return same;
 }
 
 bool Fields::hasAnyOf(const std::vector<std::string>& names) const {
@@ -147,13 +154,19 @@ SO3d Fields::rotation() const {
   }
 }
 
+// The path, or the name of a section that is written with points.
+std::string Fields::place() const {
+  return path_.empty() && !prefix_.empty() ? prefix_.substr(0, prefix_.size() - 1) : path_;
+}
+
 void Fields::fail(const std::string& problem) const {
-  throw ParseError(source_, 0, 0, (path_.empty() ? "" : path_ + " ") + problem);
+  const std::string where = place();
+  throw ParseError(source_, 0, 0, (where.empty() ? "" : where + " ") + problem);
 }
 
 void Fields::failMissing(const std::string& name) const {
-  if (path_.empty()) throw ParseError(source_, 0, 0, name + " is missing");
-  throw ParseError(source_, 0, 0, path_ + " / " + name + " is missing");
+  throw ParseError(source_, 0, 0,
+                   (path_.empty() ? "" : path_ + " / ") + prefix_ + name + " is missing");
 }
 
 }  // namespace calibration

@@ -29,6 +29,9 @@ class Fields {
   /// A member.
   Fields operator[](const std::string& name) const;
   Fields operator[](const char* name) const { return (*this)[std::string(name)]; }
+  /// A member that has members; where there is none, those whose names begin with it and a point:
+  /// `fx` is "Camera.fx" then.
+  Fields section(const std::string& name) const;
   /// The first of these members that there is.
   Fields anyOf(const std::vector<std::string>& names) const;
   bool hasAnyOf(const std::vector<std::string>& names) const;
@@ -64,11 +67,13 @@ class Fields {
   Fields(Svar value, std::string source, std::string path)
       : value_(std::move(value)), source_(std::move(source)), path_(std::move(path)) {}
   const Svar* find(const std::string& name) const;
+  std::string place() const;
   void addNumbers(std::vector<double>& all) const;
 
   Svar value_;
   std::string source_;
   std::string path_;
+  std::string prefix_;  // of the names of members: "Camera."
 };
 
 }  // namespace calibration

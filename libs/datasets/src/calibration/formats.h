@@ -80,6 +80,9 @@ Camera distortedPinhole(const Fields& where, const std::string& distortion, Imag
 /// radtan with OpenCV's numbers of coefficients; a pinhole where none is other than 0.
 Camera radtanOrPinhole(const Fields& where, ImageSize size, const std::vector<double>& intrinsics,
                        const std::vector<double>& coefficients);
+/// The same for a line of text, whose numbers begin with fx fy cx cy.
+Camera radtanOrPinhole(const std::string& source, std::size_t line, ImageSize size,
+                       const std::vector<double>& parameters);
 
 /// Where the right camera is in the left one's coordinates, of a pair that a program rectifies.
 /// @param baseline  metres
@@ -87,6 +90,12 @@ SE3d placeOfRight(const SO3d& R_rectified_left, const SO3d& R_rectified_right, d
 
 /// fx fy cx cy of a camera matrix without skew.
 std::vector<double> intrinsicsOfMatrix(const Fields& matrix);
+
+/// Numbers that members of an object are, in this order.
+std::vector<double> membersOf(const Fields& object, const std::vector<std::string>& names);
+
+/// The density of a noise, 0 or more. Of one for each axis the largest counts, which is said.
+double noiseOf(const Fields& density, Calibration& result);
 
 /// A camera for depth that looks as another does.
 /// @param factor  what metres are multiplied by in the images

@@ -3,6 +3,7 @@
 // The words and the order of numbers: github.com/ethz-asl/kalibr, wiki "yaml formats" and
 // aslam_offline_calibration/kalibr/python/kalibr_common/ConfigReader.py; T_imu_cam and T_i_b:
 // docs.openvins.com "Sensor Calibration".
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -97,12 +98,28 @@ SE3d T_imu_cameraOf(const Fields& camera) {  // NOLINT(readability-identifier-na
   return camera["T_cam_imu"].pose().inverse();
 }
 
+// The first camera that has a place by the inertial unit; their number: none has.
+std::size_t firstByImu(const std::vector<Fields>& cameras) {
+  const auto first = std::find_if(cameras.begin(), cameras.end(), isByImu);
+  return static_cast<std::size_t>(first - cameras.begin());
+}
+
+// The place of cam0: its own, or back along the chain from the first that has one.
+SE3d placeOfFirst(const std::vector<Fields>& cameras) {
+  std::size_t i = firstByImu(cameras);
+  if (i == cameras.size()) return SE3d();
+  SE3d place = T_imu_cameraOf(cameras[i]);
+  for (; i > 0; --i) place = place * cameras[i]["T_cn_cnm1"].pose();
+  return place;
+}
+
 // The place of a camera, by the inertial unit or by the camera before it.
 SE3d placeOf(const std::vector<Fields>& cameras, std::size_t i, bool is_by_imu,
              Calibration& result) {
   const Fields& camera = cameras[i];
-  const bool is_in_chain = i > 0 && camera.has("T_cn_cnm1");
-  if (is_by_imu && isByImu(camera)) {
+  if (i == 0) return placeOfFirst(cameras);
+  const bool is_in_chain = camera.has("T_cn_cnm1");
+  if (isByImu(camera)) {
     const SE3d T_imu_camera = T_imu_cameraOf(camera);
     if (is_in_chain) {
       const SE3d by_chain =
@@ -116,7 +133,6 @@ SE3d placeOf(const std::vector<Fields>& cameras, std::size_t i, bool is_by_imu,
     }
     return T_imu_camera;
   }
-  if (i == 0) return SE3d();
   if (is_in_chain) {
     return result.rig.cameras[i - 1].T_body_camera * camera["T_cn_cnm1"].pose().inverse();
   }
@@ -126,7 +142,7 @@ SE3d placeOf(const std::vector<Fields>& cameras, std::size_t i, bool is_by_imu,
 void readCameras(const Fields& root, Calibration& result) {
   const std::vector<Fields> cameras = camerasOf(root);
   if (cameras.empty()) return;
-  const bool is_by_imu = isByImu(cameras[0]);
+  const bool is_by_imu = firstByImu(cameras) < cameras.size();
   result.body = is_by_imu ? "the IMU" : "the camera cam0";
   result.rig.has_imu = is_by_imu;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -141,12 +157,6 @@ void readCameras(const Fields& root, Calibration& result) {
                                " ns to be those of the IMU");
     }
   }
-}
-
-double noiseOf(const Fields& imu, const std::string& name) {
-  const double value = imu[name].number();
-  if (value < 0) imu[name].fail("is negative, expected 0 or more");
-  return value;
 }
 
 bool isIdentity(const std::vector<double>& matrix) {
@@ -172,10 +182,10 @@ void sayUnused(const Fields& imu, Calibration& result) {
 
 void readImu(const Fields& imu, bool has_cameras, Calibration& result) {
   ImuCalibration& calibration = result.rig.imu;
-  calibration.accel_noise = noiseOf(imu, kImuNoise);
-  calibration.accel_bias_walk = noiseOf(imu, "accelerometer_random_walk");
-  calibration.gyro_noise = noiseOf(imu, "gyroscope_noise_density");
-  calibration.gyro_bias_walk = noiseOf(imu, "gyroscope_random_walk");
+  calibration.accel_noise = noiseOf(imu[kImuNoise], result);
+  calibration.accel_bias_walk = noiseOf(imu["accelerometer_random_walk"], result);
+  calibration.gyro_noise = noiseOf(imu["gyroscope_noise_density"], result);
+  calibration.gyro_bias_walk = noiseOf(imu["gyroscope_random_walk"], result);
   calibration.rate = imu.number("update_rate", 0);
   if (calibration.rate < 0) imu["update_rate"].fail("is negative, expected samples a second");
   // Kalibr's body is its first unit, from which the cameras are measured, too.

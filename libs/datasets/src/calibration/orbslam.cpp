@@ -4,8 +4,6 @@
 // ORB_SLAM3, src/Settings.cc ("File.version": "1.0") and, for older files, src/Tracking.cc (Tbc,
 // Tlr). T_c1_c2 takes coordinates of the second camera to those of the first, T_b_c1 those of the
 // first to the inertial unit's.
-#include <algorithm>
-
 #include "formats.h"
 
 namespace gslam {
@@ -17,13 +15,6 @@ ImageSize sizeIn(const Document& document, const std::string& camera) {
   const Fields& root = document.root;
   if (!root.has(camera + ".width")) return sizeOfOptions(document);
   return {root[camera + ".width"].pixels(), root[camera + ".height"].pixels()};
-}
-
-std::vector<double> membersOf(const Fields& root, const std::string& camera,
-                              const std::vector<std::string>& names) {
-  std::vector<double> values;
-  for (const std::string& name : names) values.push_back(root[camera + "." + name].number());
-  return values;
 }
 
 enum class Lens { pinhole, fisheye, rectified };
@@ -38,16 +29,16 @@ Lens lensOf(const Fields& root) {
 }
 
 Camera cameraOf(const Fields& root, const std::string& camera, Lens lens, ImageSize size) {
-  const std::vector<double> intrinsics = membersOf(root, camera, {"fx", "fy", "cx", "cy"});
+  const std::vector<double> intrinsics = membersOf(root.section(camera), {"fx", "fy", "cx", "cy"});
   const Fields where = root[camera + ".fx"];
   if (lens == Lens::fisheye) {
-    const std::vector<double> k = membersOf(root, camera, {"k1", "k2", "k3", "k4"});
+    const std::vector<double> k = membersOf(root.section(camera), {"k1", "k2", "k3", "k4"});
     return makeCamera(where, "kannala_brandt", size, joined(intrinsics, k));
   }
   if (lens == Lens::rectified || !root.has(camera + ".k1")) {
     return makeCamera(where, "pinhole", size, intrinsics);
   }
-  std::vector<double> k = membersOf(root, camera, {"k1", "k2", "p1", "p2"});
+  std::vector<double> k = membersOf(root.section(camera), {"k1", "k2", "p1", "p2"});
   if (root.has(camera + ".k3")) k.push_back(root[camera + ".k3"].number());
   return radtanOrPinhole(where, size, intrinsics, k);
 }
@@ -117,23 +108,24 @@ void readCameras(const Document& document, Calibration& result) {
   }
   addSecond(document, lens, rate, result);
   if (result.rig.cameras.size() == 1) result.rig.cameras[0].name = "camera";
-  if (root.hasAnyOf({"Camera.newWidth", "Camera.newHeight"})) {
-    result.remarks.push_back("ORB-SLAM would scale the images; they are as they were taken");
-  }
+}
+
+void sayScale(const Fields& root, Calibration& result) {
+  const bool is_scaled = root.number("Camera.imageScale", 1) != 1 ||
+                         root.hasAnyOf({"Camera.newWidth", "Camera.newHeight"});
+  if (!is_scaled) return;
+  result.remarks.push_back("ORB-SLAM would scale the images; they are as they were taken");
 }
 
 void readImu(const Fields& root, Calibration& result) {
   result.rig.has_imu = true;
   ImuCalibration& imu = result.rig.imu;
-  imu.gyro_noise = root["IMU.NoiseGyro"].number();
-  imu.accel_noise = root["IMU.NoiseAcc"].number();
-  imu.gyro_bias_walk = root["IMU.GyroWalk"].number();
-  imu.accel_bias_walk = root["IMU.AccWalk"].number();
+  imu.gyro_noise = noiseOf(root["IMU.NoiseGyro"], result);
+  imu.accel_noise = noiseOf(root["IMU.NoiseAcc"], result);
+  imu.gyro_bias_walk = noiseOf(root["IMU.GyroWalk"], result);
+  imu.accel_bias_walk = noiseOf(root["IMU.AccWalk"], result);
   imu.rate = root["IMU.Frequency"].number();
-  if (std::min({imu.gyro_noise, imu.accel_noise, imu.gyro_bias_walk, imu.accel_bias_walk,
-                imu.rate}) < 0) {
-    root["IMU.NoiseGyro"].fail("or another of IMU is negative, expected 0 or more");
-  }
+  if (imu.rate < 0) root["IMU.Frequency"].fail("is negative, expected samples a second");
   const SE3d T_imu_first = root.anyOf({"IMU.T_b_c1", "Tbc"}).pose();
   for (CameraSensor& camera : result.rig.cameras) {
     camera.T_body_camera = T_imu_first * camera.T_body_camera;
@@ -144,12 +136,14 @@ void readImu(const Fields& root, Calibration& result) {
 }  // namespace
 
 bool isOrbslam(const Document& document) {
+  if (isStella(document)) return false;  // OpenVSLAM has Camera.fx, too
   return document.root.hasAnyOf({"Camera.fx", "Camera1.fx", "LEFT.K"});
 }
 
 Calibration parseOrbslam(const Document& document) {
   Calibration result;
   readCameras(document, result);
+  sayScale(document.root, result);
   result.body = "the camera " + result.rig.cameras[0].name;
   if (document.root.has("IMU.NoiseGyro")) readImu(document.root, result);
   return result;

@@ -1,19 +1,14 @@
-// Settings of stella_vslam and of OpenVSLAM before it.
+// Settings of stella_vslam and of OpenVSLAM before it, which has "Camera.fx" in place of fx in
+// Camera, and depthmap_factor at the top.
 //
-// github.com/stella-cv/stella_vslam, src/stella_vslam/camera/*.cc and util/stereo_rectifier.cc.
-
+// github.com/stella-cv/stella_vslam, src/stella_vslam/camera/*.cc and util/stereo_rectifier.cc;
+// OpenVSLAM 0.2, src/openvslam/config.cc and example/*/*.yaml.
 #include "formats.h"
 
 namespace gslam {
 inline namespace v1 {
 namespace calibration {
 namespace {
-
-std::vector<double> membersOf(const Fields& camera, const std::vector<std::string>& names) {
-  std::vector<double> values;
-  for (const std::string& name : names) values.push_back(camera[name].number());
-  return values;
-}
 
 Camera cameraOf(const Fields& camera, ImageSize size) {
   const std::string model = camera["model"].text();
@@ -52,8 +47,8 @@ void readPair(const Document& document, const Fields& camera, ImageSize size, Ca
   CameraSensor right = result.rig.cameras[0];
   right.name = "right";
   right.T_body_camera = SE3d(SO3d(), {{baseline, 0, 0}});
-  if (document.root.has("StereoRectifier")) {
-    const Fields rectifier = document.root["StereoRectifier"];
+  const Fields rectifier = document.root.section("StereoRectifier");
+  if (document.root.has("StereoRectifier") || rectifier.hasAnyOf({"model", "K_left", "R_left"})) {
     result.rig.cameras[0].camera = takenBy(rectifier, "left", size);
     right.camera = takenBy(rectifier, "right", size);
     right.T_body_camera =
@@ -77,12 +72,12 @@ ImageKind kindOf(const Fields& camera) {
 }  // namespace
 
 bool isStella(const Document& document) {
-  return document.root.has("Camera") && document.root["Camera"].has("model");
+  return document.root.section("Camera").hasAnyOf({"model", "cols"});
 }
 
 Calibration parseStella(const Document& document) {
   const Fields& root = document.root;
-  const Fields camera = root["Camera"];
+  const Fields camera = root.section("Camera");
   const ImageSize size = {camera["cols"].pixels(), camera["rows"].pixels()};
   const double rate = camera.number("fps", 0);
   if (rate < 0) camera["fps"].fail("is negative, expected images a second");
@@ -94,11 +89,8 @@ Calibration parseStella(const Document& document) {
     readPair(document, camera, size, result);
   } else if (setup == "RGBD") {
     result.rig.cameras[0].name = "rgb";
-    const bool has_factor =
-        root.has("Preprocessing") && root["Preprocessing"].has("depthmap_factor");
-    if (!has_factor) root.failMissing("Preprocessing / depthmap_factor");
-    const Fields factor = root["Preprocessing"]["depthmap_factor"];
-    result.rig.cameras.push_back(depthOf(result.rig.cameras[0], factor));
+    const Fields with_factor = root.has("Preprocessing") ? root["Preprocessing"] : root;
+    result.rig.cameras.push_back(depthOf(result.rig.cameras[0], with_factor["depthmap_factor"]));
   } else if (setup != "monocular") {
     camera["setup"].fail("is '" + setup + "', expected monocular, stereo or RGBD");
   }

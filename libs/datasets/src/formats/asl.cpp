@@ -4,10 +4,10 @@
 #include <gslam/core/detail/field_reader.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <utility>
 
+#include "../reading/decode.h"
 #include "../reading/looks_like.h"
 
 namespace gslam {
@@ -87,6 +87,27 @@ std::vector<std::size_t> wantedCameras(const Asl& asl) {
   return wanted;
 }
 
+// Where the user names mav0, the tree of the folder around it, which may have more than mav0; else,
+// or where that folder cannot be looked at, none.
+std::shared_ptr<const FileTree> treeAround(const FileTree& tree) {
+  std::error_code problem;
+  if (tree.baseName() != "mav0" || !std::filesystem::is_directory(tree.root(), problem)) return {};
+  std::filesystem::path path = std::filesystem::path(tree.root()).lexically_normal();
+  if (path.filename().empty()) path = path.parent_path();  // of "mav0/."
+  if (path.filename() != "mav0") {                         // "." inside of it
+    path = std::filesystem::absolute(tree.root(), problem).lexically_normal();
+    if (path.filename().empty()) path = path.parent_path();
+  }
+  const std::string around = path.parent_path().string();
+  try {
+    std::shared_ptr<const FileTree> found = FileTree::open(around.empty() ? "." : around);
+    if (isMav(*found, "mav0")) return found;
+  } catch (const FileError&) {
+    // mav0 alone is a sequence as well
+  }
+  return {};
+}
+
 // Of a sequence whose folder is named "mav0" the name of the folder around it.
 std::string sequenceName(const FileTree& tree) {
   if (tree.baseName() != "mav0") return tree.baseName();
@@ -128,6 +149,103 @@ void takeNoise(const ImuCalibration& from, ImuCalibration& imu) {
   if (from.rate > 0) imu.rate = from.rate;
 }
 
+// One camera by its sensor.yaml.
+CameraSensor readCamera(const Asl& asl, std::size_t i, Remarks& remarks) {
+  CameraSensor sensor;
+  const std::string file = asl.cameraFolder(i) + "sensor.yaml";
+  if (!asl.tree->has(file)) return sensor;
+  CalibrationOptions options;
+  options.format = "euroc";
+  const Calibration found = calibrationIn(*asl.tree, file, remarks, options);
+  if (found.rig.cameras.empty()) {
+    throw ParseError(asl.tree->nameOf(file), 0, 0, "is of no camera, expected one");
+  }
+  return found.rig.cameras[0];
+}
+
+// What is left of a sensor.yaml that has no camera: where that is.
+CameraSensor readPlace(const Asl& asl, std::size_t i, const ParseError& error, Remarks& remarks) {
+  CameraSensor sensor;
+  std::string place = "its T_BS was taken";
+  try {
+    sensor.T_body_camera = placeOfSensor(asl, "cam" + std::to_string(asl.cameras[i]));
+  } catch (const ParseError&) {
+    place = "its T_BS was taken to be the identity";
+  }
+  remarks.say(std::string("of a file that another calibration replaces ") + place + ", since " +
+              error.what());
+  return sensor;
+}
+
+// The first camera that both the dataset and a calibration have; the number of cameras: none.
+std::size_t firstOfBoth(const Asl& asl, const std::vector<CameraSensor>& from) {
+  const auto first = std::find_if(asl.cameras.begin(), asl.cameras.end(),
+                                  [&](std::size_t number) { return number < from.size(); });
+  return static_cast<std::size_t>(first - asl.cameras.begin());
+}
+
+// Whether a camera is not where the first one is: files that do not say its place have it there.
+bool isApart(const std::vector<CameraSensor>& cameras, std::size_t i) {
+  return !cameras[i].T_body_camera.isApprox(cameras[0].T_body_camera, 1e-12);
+}
+
+// Whether a calibration says where a camera is: by the inertial unit, or by another camera.
+bool hasPlace(const Calibration& calibration, std::size_t number) {
+  const std::vector<CameraSensor>& cameras = calibration.rig.cameras;
+  if (number > 0) return isApart(cameras, number);
+  if (calibration.body == "the IMU") return true;
+  for (std::size_t i = 1; i < cameras.size(); ++i) {
+    if (isApart(cameras, i)) return true;
+  }
+  return false;
+}
+
+// Sets exposures of images by stamps that are at most so many nanoseconds apart.
+// @return which images have one now
+std::vector<bool> setExposures(std::vector<ListedImage>& images,
+                               const std::map<std::int64_t, std::int64_t>& by_stamp,
+                               std::int64_t apart) {
+  std::vector<bool> is_set(images.size());
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const auto found = by_stamp.lower_bound(images[i].stamp - apart);
+    if (found == by_stamp.end() || found->first > images[i].stamp + apart) continue;
+    images[i].exposure = found->second;
+    is_set[i] = true;
+  }
+  return is_set;
+}
+
+void addExposures(std::vector<ListedImage>& images, const AslExposures& exposures,
+                  Remarks& remarks) {
+  if (exposures.file.empty()) return;
+  const auto hasAny = [](const std::vector<bool>& is_set) {
+    return std::find(is_set.begin(), is_set.end(), true) != is_set.end();
+  };
+  std::vector<bool> is_set = setExposures(images, exposures.exact, 0);
+  if (!hasAny(is_set)) {
+    // As floating-point numbers, seconds since 1970 are exact to less than a microsecond.
+    is_set = setExposures(images, exposures.rounded, 1000);
+    if (hasAny(is_set)) {
+      remarks.say("the nanoseconds of " + exposures.file +
+                  " are not those of the images: exposures are by its seconds");
+    }
+  }
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    if (!is_set[i]) {
+      remarks.skip("exposures that " + exposures.file + " does not have", images[i].file);
+    }
+  }
+}
+
+// What the first image of the first camera is like; of size 0 where there is none.
+ImageShape shapeOfImages(const Asl& asl) {
+  const std::string folder = joined(asl.cameraFolder(0), "data");
+  for (const std::string& name : asl.tree->files(folder)) {
+    if (isImageName(name)) return shapeOf(readImage(*asl.tree, joined(folder, name)));
+  }
+  return ImageShape();
+}
+
 }  // namespace
 
 std::string Asl::cameraFolder(std::size_t i) const {
@@ -149,9 +267,11 @@ Asl openAsl(const std::string& path, const Svar& parameters) {
   asl.parameters = aslParameters().merged(parameters);
   const std::shared_ptr<const FileTree> tree = FileTree::open(path);
   // The folder around mav0 is met before mav0.
-  asl.tree = below(tree, onlyFolder(*tree, "euroc",
-                                    "has no cam0/data.csv, expected mav0 with cam0, or a folder or "
-                                    "archive around it"));
+  const std::string folder =
+      onlyFolder(*tree, "euroc",
+                 "has no cam0/data.csv, expected mav0 with cam0, or a folder or archive around it");
+  asl.tree = below(tree, folder);
+  if (const auto around = folder.empty() ? treeAround(*tree) : nullptr) asl.tree = around;
   asl.mav = isMav(*asl.tree, "mav0") ? "mav0" : "";
   asl.sequence.info.name = sequenceName(*asl.tree);
   asl.cameras = wantedCameras(asl);
@@ -165,20 +285,20 @@ Calibration calibrationIn(const FileTree& tree, const std::string& file, Remarks
   return calibration;
 }
 
-void readAslSensors(Asl& asl) {
-  CalibrationOptions options;
-  options.format = "euroc";
+bool isCalibrationOfUser(const Asl& asl) {
+  return !asl.parameters.get<std::string>("calibration").empty();
+}
+
+void readAslSensors(Asl& asl, bool is_replaced) {
   SensorRig& rig = asl.sequence.info.sensors;
   Remarks& remarks = asl.sequence.remarks;
   for (std::size_t i = 0; i < asl.cameras.size(); ++i) {
     CameraSensor sensor;
-    const std::string file = asl.cameraFolder(i) + "sensor.yaml";
-    if (asl.tree->has(file)) {
-      const Calibration found = calibrationIn(*asl.tree, file, remarks, options);
-      if (found.rig.cameras.empty()) {
-        throw ParseError(asl.tree->nameOf(file), 0, 0, "is of no camera, expected one");
-      }
-      sensor = found.rig.cameras[0];
+    try {
+      sensor = readCamera(asl, i, remarks);
+    } catch (const ParseError& error) {
+      if (!is_replaced) throw;
+      sensor = readPlace(asl, i, error, remarks);
     }
     sensor.name = "cam" + std::to_string(asl.cameras[i]);
     rig.cameras.push_back(sensor);
@@ -186,6 +306,8 @@ void readAslSensors(Asl& asl) {
   readImuSamples(asl);
   const std::string file = asl.file("imu0/sensor.yaml");
   if (!rig.has_imu || !asl.tree->has(file)) return;
+  CalibrationOptions options;
+  options.format = "euroc";
   const Calibration found = calibrationIn(*asl.tree, file, remarks, options);
   if (!found.rig.has_imu) {
     throw ParseError(asl.tree->nameOf(file), 0, 0, "is of no IMU, expected one");
@@ -196,42 +318,52 @@ void readAslSensors(Asl& asl) {
 void takeCalibration(Asl& asl, const Calibration& calibration, const std::string& file) {
   SensorRig& rig = asl.sequence.info.sensors;
   Remarks& remarks = asl.sequence.remarks;
+  if (calibration.rig.imu.gyro_noise > 0) takeNoise(calibration.rig.imu, rig.imu);
   const std::vector<CameraSensor>& from = calibration.rig.cameras;
-  for (std::size_t i = 0; i < asl.cameras.size() && !from.empty(); ++i) {
+  if (from.empty()) return;
+  const bool is_by_imu = calibration.body == "the IMU";
+  const std::size_t reference = firstOfBoth(asl, from);
+  // Takes the calibration's body to the dataset's.
+  SE3d anchor = rig.imu.T_body_imu;
+  if (!is_by_imu && reference < asl.cameras.size()) {
+    anchor =
+        rig.cameras[reference].T_body_camera * from[asl.cameras[reference]].T_body_camera.inverse();
+  }
+  for (std::size_t i = 0; i < asl.cameras.size(); ++i) {
     const std::size_t number = asl.cameras[i];
     if (number >= from.size()) {
       remarks.say(file + " has no camera " + std::to_string(number));
       continue;
     }
     rig.cameras[i].camera = from[number].camera;
-    rig.cameras[i].T_body_camera = rig.imu.T_body_imu * from[number].T_body_camera;
+    if (hasPlace(calibration, number)) {
+      rig.cameras[i].T_body_camera = anchor * from[number].T_body_camera;
+    }
   }
-  if (!from.empty() && calibration.body != "the IMU") {
-    remarks.say(file + " does not say where cameras are by the IMU: they are placed as if " +
-                (calibration.body.empty() ? std::string("all") : calibration.body) +
-                " were where it is");
-  }
-  if (calibration.rig.imu.gyro_noise > 0) takeNoise(calibration.rig.imu, rig.imu);
+  if (is_by_imu || reference == asl.cameras.size()) return;
+  const bool has_pair = hasPlace(calibration, 0);
+  remarks.say(file + " does not say where cameras are by the IMU: " +
+              (has_pair ? rig.cameras[reference].name + " stays where the dataset has it"
+                        : "they stay where the dataset has them"));
 }
 
-bool takeCalibrationOfUser(Asl& asl) {
+void takeCalibrationOfUser(Asl& asl, const std::string& bare_model) {
+  if (!isCalibrationOfUser(asl)) return;
   const std::string path = asl.parameters.get<std::string>("calibration");
-  if (path.empty()) return false;
-  const Calibration calibration = readCalibration(path);
+  const ImageShape shape = shapeOfImages(asl);
+  CalibrationOptions options;
+  options.width = shape.width;
+  options.height = shape.height;
+  options.bare_model = bare_model;
+  const Calibration calibration = readCalibration(path, options);
   for (const std::string& remark : calibration.remarks) {
     asl.sequence.remarks.say(path + ": " + remark);
   }
   takeCalibration(asl, calibration, path);
-  return true;
 }
 
-std::unique_ptr<Dataset> deliverAsl(
-    Asl asl, const std::vector<std::map<std::int64_t, std::int64_t>>& exposures) {
-  const double tolerance = asl.parameters.get<double>("tolerance");
-  if (!(tolerance >= 0 && tolerance < 3600)) {
-    throw ArgumentError("tolerance",
-                        "is " + std::to_string(tolerance) + ", expected 0 to 3600 seconds");
-  }
+std::unique_ptr<Dataset> deliverAsl(Asl asl, const std::vector<AslExposures>& exposures) {
+  const std::int64_t tolerance = toleranceOf(asl.parameters, 0, 3600);
   Sequence& sequence = asl.sequence;
   const std::string list = asl.parameters.get<std::string>("list");
   std::vector<std::vector<ListedImage>> images;
@@ -240,18 +372,14 @@ std::unique_ptr<Dataset> deliverAsl(
     images.push_back(
         readImageList(*asl.tree, folder + list, StampUnit::nanoseconds, folder + "data"));
     tidy(images.back(), *asl.tree, folder + list, sequence.remarks);
-    if (exposures.empty()) continue;
-    for (ListedImage& image : images.back()) {
-      const auto found = exposures[i].find(image.stamp);
-      if (found != exposures[i].end()) image.exposure = found->second;
-    }
+    if (!exposures.empty()) addExposures(images.back(), exposures[i], sequence.remarks);
   }
   for (const CameraSensor& camera : sequence.info.sensors.cameras) {
     if (!camera.camera.isValid()) {
       sequence.remarks.say("camera " + camera.name + " is not calibrated: nothing says its model");
     }
   }
-  std::vector<std::string> names = makeFrames(sequence, images, std::llround(tolerance * 1e9));
+  std::vector<std::string> names = makeFrames(sequence, images, tolerance);
   loadImageFiles(sequence, {asl.tree, std::move(names)});
   return deliver(std::move(sequence), prefetchOf(asl.parameters));
 }

@@ -43,25 +43,45 @@ Svar aslParameters();
 /// @throws FileError when there is none, ArgumentError when it has not the cameras of the user
 Asl openAsl(const std::string& path, const Svar& parameters);
 
+/// Whether the parameter `calibration` is given, so that what the dataset says of cameras may be
+/// wrong.
+bool isCalibrationOfUser(const Asl& asl);
+
 /// Cameras by their sensor.yaml, and the inertial unit with its samples and sensor.yaml. What is
 /// missing is said.
-void readAslSensors(Asl& asl);
+/// @param is_replaced  another calibration follows: a camera's file that cannot be read is said
+///   then, and no error
+void readAslSensors(Asl& asl, bool is_replaced);
 
-/// Takes cameras from a calibration of all, by their numbers, and the noise of the inertial unit
-/// where it has one.
+/// Where a sensor is: T_BS of its folder's sensor.yaml, of which nothing else is looked at; the
+/// identity where there is no such file.
+/// @param folder  such as "cam0"
+SE3d placeOfSensor(const Asl& asl, const std::string& folder);
+
+/// Takes models of cameras from a calibration of all, by their numbers, and the noise of the
+/// inertial unit where it has one. Where cameras are is taken, too, where the calibration says that
+/// by the inertial unit; where it says that of one camera by another, the first of them stays where
+/// it was.
 /// @param file  what errors and remarks call it
 void takeCalibration(Asl& asl, const Calibration& calibration, const std::string& file);
 /// The same of the parameter `calibration`, where it is given.
-/// @return whether it is
-bool takeCalibrationOfUser(Asl& asl);
+/// @param bare_model  CalibrationOptions::bare_model
+void takeCalibrationOfUser(Asl& asl, const std::string& bare_model = "");
 
 /// Poses of the ground truth, as poses of the body.
 void readAslTruth(Asl& asl);
 
+/// How long images of a camera were exposed, nanoseconds.
+struct AslExposures {
+  std::string file;                              ///< that says it; "": none does
+  std::map<std::int64_t, std::int64_t> exact;    ///< by the stamp
+  std::map<std::int64_t, std::int64_t> rounded;  ///< by the stamp as it became of a number in
+                                                 ///< seconds, where that is all there is
+};
+
 /// Reads the lists of images, makes frames and delivers.
-/// @param exposures  for each camera that is read, by stamp; empty: unknown
-std::unique_ptr<Dataset> deliverAsl(
-    Asl asl, const std::vector<std::map<std::int64_t, std::int64_t>>& exposures = {});
+/// @param exposures  for each camera that is read; empty: unknown
+std::unique_ptr<Dataset> deliverAsl(Asl asl, const std::vector<AslExposures>& exposures = {});
 
 /// A calibration file in a tree, with its remarks.
 Calibration calibrationIn(const FileTree& tree, const std::string& file, Remarks& remarks,

@@ -21,15 +21,6 @@ std::string dataOf(const Asl& asl, const std::string& folder) {
   return asl.file(folder + "/data.csv");
 }
 
-// T_BS of a folder's sensor.yaml; the identity where there is no such file.
-SE3d placeOfSensor(const Asl& asl, const std::string& folder) {
-  const std::string file = asl.file(folder + "/sensor.yaml");
-  if (!asl.tree->has(file)) return SE3d();
-  const std::string name = asl.tree->nameOf(file);
-  const calibration::Fields fields(parseYaml(asl.tree->text(file), name), name);
-  return fields.has("T_BS") ? fields["T_BS"].pose() : SE3d();
-}
-
 std::size_t countLines(const std::string& text, const std::string& name) {
   detail::FieldReader in(text, name, "a pose");
   std::size_t count = 0;
@@ -82,6 +73,14 @@ Trajectory readPositions(Asl& asl) {
 }
 
 }  // namespace
+
+SE3d placeOfSensor(const Asl& asl, const std::string& folder) {
+  const std::string file = asl.file(folder + "/sensor.yaml");
+  if (!asl.tree->has(file)) return SE3d();
+  const std::string name = asl.tree->nameOf(file);
+  const calibration::Fields fields(parseYaml(asl.tree->text(file), name), name);
+  return fields.has("T_BS") ? fields["T_BS"].pose() : SE3d();
+}
 
 void readAslTruth(Asl& asl) {
   DatasetInfo& info = asl.sequence.info;

@@ -30,6 +30,13 @@ CameraSensor pick(const Calibration& calibration, const std::string& name, int i
   return cameras[i];
 }
 
+CalibrationOptions sizedAs(const ImageShape& shape) {
+  CalibrationOptions options;
+  options.width = shape.width;
+  options.height = shape.height;
+  return options;
+}
+
 }  // namespace
 
 void addCameraParameters(Svar& parameters) {
@@ -37,20 +44,23 @@ void addCameraParameters(Svar& parameters) {
   parameters.set("calibration", "");
 }
 
-bool overrideCamera(const Svar& parameters, CameraSensor& sensor, Remarks& remarks) {
+bool overrideCamera(const Svar& parameters, CameraSensor& sensor, Remarks& remarks,
+                    const std::function<ImageShape()>& shape) {
   const auto words = parameters.get<std::string>("camera", ""),
              file = parameters.get<std::string>("calibration", "");
   if (!words.empty() && !file.empty()) {
     throw ArgumentError("camera", "and calibration are both given, expected one of them");
   }
   if (!words.empty()) sensor.camera = cameraOfWords(words);
-  if (!file.empty()) sensor.camera = pick(readCalibration(file), file, 0, remarks).camera;
+  if (!file.empty()) {
+    sensor.camera = pick(readCalibration(file, sizedAs(shape())), file, 0, remarks).camera;
+  }
   return sensor.camera.isValid();
 }
 
 CameraSensor cameraOfFile(const std::string& text, const std::string& name, int index,
-                          Remarks& remarks) {
-  return pick(parseCalibration(text, name), name, index, remarks);
+                          const ImageShape& shape, Remarks& remarks) {
+  return pick(parseCalibration(text, name, sizedAs(shape)), name, index, remarks);
 }
 
 }  // namespace reading

@@ -5,8 +5,10 @@
 #include <gslam/core/frame.h>
 #include <gslam/svar/svar.h>
 
+#include <functional>
 #include <string>
 
+#include "../reading/decode.h"
 #include "../reading/remarks.h"
 
 namespace gslam {
@@ -19,16 +21,20 @@ void addCameraParameters(Svar& parameters);
 
 /// Gives a camera the model that the user wants.
 /// @param remarks  what there is to say of the calibration
+/// @param shape    of the images, for files that do not say their size; asked for `calibration`
+/// only
 /// @return whether the user wants one
 /// @throws ArgumentError when both are given, and what reading them throws
-bool overrideCamera(const Svar& parameters, CameraSensor& sensor, Remarks& remarks);
+bool overrideCamera(const Svar& parameters, CameraSensor& sensor, Remarks& remarks,
+                    const std::function<ImageShape()>& shape);
 
 /// A camera of a calibration file's text, see parseCalibration().
 /// @param name     what errors call the file
+/// @param shape    of the images, for files that do not say their size
 /// @param index    which of its cameras
 /// @param remarks  what there is to say of it
 CameraSensor cameraOfFile(const std::string& text, const std::string& name, int index,
-                          Remarks& remarks);
+                          const ImageShape& shape, Remarks& remarks);
 
 }  // namespace reading
 }  // namespace v1

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <opencv2/videoio.hpp>
 #include <opencv2/videoio/registry.hpp>
@@ -52,18 +53,30 @@ Options optionsOf(const Svar& parameters) {
   return options;
 }
 
-DatasetInfo infoOf(const std::string& name, const Options& options, Remarks& remarks) {
+/// @param shape  of the images, see overrideCamera()
+DatasetInfo infoOf(const std::string& name, const Options& options, Remarks& remarks,
+                   const std::function<ImageShape()>& shape) {
   DatasetInfo info;
   info.name = name;
   info.format = "cvmono";
   info.body = "the camera";
   CameraSensor camera;
   camera.name = "camera";
-  if (!overrideCamera(options.parameters, camera, remarks)) {
+  if (!overrideCamera(options.parameters, camera, remarks, shape)) {
     remarks.say("the camera is not calibrated; give one with the parameter 'camera'");
   }
   info.sensors.cameras.push_back(camera);
   return info;
+}
+
+// Of a video or device, which may not say it.
+ImageShape sizeOnly(int width, int height) {
+  ImageShape shape;
+  if (width > 0 && height > 0) {
+    shape.width = width;
+    shape.height = height;
+  }
+  return shape;
 }
 
 std::int64_t stampAt(std::size_t frame, double rate) {
@@ -88,7 +101,8 @@ std::unique_ptr<Dataset> openImages(std::shared_ptr<const FileTree> tree,
   std::sort(names.begin(), names.end(), isBeforeNaturally);
   Sequence sequence;
   sequence.remarks = std::move(remarks);
-  sequence.info = infoOf(title, options, sequence.remarks);
+  sequence.info = infoOf(title, options, sequence.remarks,
+                         [&]() { return shapeOf(readImage(*tree, names.front())); });
   const double rate = options.rate > 0 ? options.rate : kUsualRate;
   sequence.info.clock = "the number of the image, by the rate";
   if (options.rate <= 0) sequence.remarks.say("images have no stamps: taken as 30 a second");
@@ -238,8 +252,11 @@ std::size_t frameCount(const Video& video, const std::string& path) {
 std::unique_ptr<Dataset> openVideo(const std::string& path, const Options& options) {
   Sequence sequence;
   const std::string name = nameIn(path);
-  sequence.info = infoOf(name.substr(0, name.rfind('.')), options, sequence.remarks);
   const auto video = std::make_shared<Video>(path, options.every);
+  const int width = int(video->get(cv::CAP_PROP_FRAME_WIDTH)),
+            height = int(video->get(cv::CAP_PROP_FRAME_HEIGHT));
+  sequence.info = infoOf(name.substr(0, name.rfind('.')), options, sequence.remarks,
+                         [&]() { return sizeOnly(width, height); });
   double rate = options.rate;
   if (rate <= 0) {
     rate = video->get(cv::CAP_PROP_FPS);
@@ -252,8 +269,7 @@ std::unique_ptr<Dataset> openVideo(const std::string& path, const Options& optio
     sequence.remarks.say("the video does not say how many frames it has a second: taken as 30");
   }
   const std::size_t count = frameCount(*video, path);
-  checkCamera(sequence.info.sensors.cameras[0], int(video->get(cv::CAP_PROP_FRAME_WIDTH)),
-              int(video->get(cv::CAP_PROP_FRAME_HEIGHT)), path);
+  checkCamera(sequence.info.sensors.cameras[0], width, height, path);
   sequence.info.sensors.cameras[0].kind = ImageKind::bgr;
   for (std::size_t i = 0; i < count; i += static_cast<std::size_t>(options.every)) {
     sequence.stamps.push_back(stampAt(i, rate));
@@ -273,13 +289,14 @@ class Device final : public Dataset {
   Device(const std::string& what, cv::VideoCapture capture, const Options& options)
       : capture_(std::move(capture)), what_(what), every_(options.every) {
     Remarks remarks;
-    info_ = infoOf(what, options, remarks);
+    const int width = int(capture_.get(cv::CAP_PROP_FRAME_WIDTH)),
+              height = int(capture_.get(cv::CAP_PROP_FRAME_HEIGHT));
+    info_ = infoOf(what, options, remarks, [&]() { return sizeOnly(width, height); });
     info_.clock = "POSIX time at which the image arrived";
     info_.is_live = true;
     info_.sensors.cameras[0].kind = ImageKind::bgr;
     info_.sensors.cameras[0].rate = std::max(0.0, capture_.get(cv::CAP_PROP_FPS));
-    checkCamera(info_.sensors.cameras[0], int(capture_.get(cv::CAP_PROP_FRAME_WIDTH)),
-                int(capture_.get(cv::CAP_PROP_FRAME_HEIGHT)), what);
+    checkCamera(info_.sensors.cameras[0], width, height, what);
     info_.remarks = remarks.sentences();
   }
 

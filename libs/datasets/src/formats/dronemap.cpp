@@ -82,7 +82,7 @@ Camera cameraOf(const FileTree& tree, const std::string& name, const Setting& se
   }
   if (!(p[0] >= 1 && p[0] <= 1e6 && p[1] >= 1 && p[1] <= 1e6)) fail("has no size of images");
   if (p.size() == 7 && p[2] < 1 && p[3] < 1) {
-    for (const std::size_t i : {2, 3, 4, 5}) p[i] *= p[i % 2];
+    for (std::size_t i = 2; i < 6; ++i) p[i] *= p[i % 2];
   }
   const char* const model = p.size() == 6 ? "pinhole" : p.size() == 7 ? "fov" : "radtan";
   try {
@@ -118,7 +118,7 @@ class DroneMap {
       tidy(images, *tree_, "frames.txt", sequence_.remarks);
       readGps();
     }
-    setCamera();
+    setCamera(images);
     std::vector<std::string> names = makeFrames(sequence_, {images}, 0);
     loadImageFiles(sequence_, {tree_, std::move(names)});
     return deliver(std::move(sequence_), prefetchOf(parameters_));
@@ -182,9 +182,12 @@ class DroneMap {
     sequence_.info.sensors.has_gnss = !sequence_.gnss.empty();
   }
 
-  void setCamera() {
+  void setCamera(const std::vector<ListedImage>& images) {
     CameraSensor& sensor = sequence_.info.sensors.cameras[0];
-    if (overrideCamera(parameters_, sensor, sequence_.remarks)) return;
+    if (overrideCamera(parameters_, sensor, sequence_.remarks,
+                       [&]() { return shapeOfFirst(*tree_, images); })) {
+      return;
+    }
     const auto named = settings_.find("Video.CameraInName");
     const std::string name =
         (named == settings_.end() ? std::string("Camera") : named->second.value) + ".Paraments";

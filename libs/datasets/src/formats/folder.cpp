@@ -166,8 +166,8 @@ class Folder {
       } catch (const SvarError& error) {
         fail(field + ": " + error.what());
       }
-      sequence_.info.sensors.cameras.push_back(sensorOf(camera, field, i));
       images.push_back(imagesOf(camera, field));
+      sequence_.info.sensors.cameras.push_back(sensorOf(camera, field, i, images.back()));
     }
     return makeFrames(sequence_, images, nanosecondsOf(description_.get<double>("tolerance")));
   }
@@ -177,7 +177,8 @@ class Folder {
     return static_cast<std::int64_t>(seconds * 1e9 + 0.5);
   }
 
-  CameraSensor sensorOf(const Svar& camera, const std::string& field, std::size_t i) {
+  CameraSensor sensorOf(const Svar& camera, const std::string& field, std::size_t i,
+                        const std::vector<ListedImage>& images) {
     CameraSensor sensor;
     sensor.name = camera.get<std::string>("name");
     if (sensor.name.empty()) sensor.name = "camera" + std::to_string(i);
@@ -205,9 +206,9 @@ class Folder {
       fail(field + "." + error.what());
     }
     if (!file.empty()) {
-      const CameraSensor read =
-          cameraOfFile(tree_->text(file), tree_->nameOf(file),
-                       camera.get<int>("calibration_camera"), sequence_.remarks);
+      const CameraSensor read = cameraOfFile(tree_->text(file), tree_->nameOf(file),
+                                             camera.get<int>("calibration_camera"),
+                                             shapeOfFirst(*tree_, images), sequence_.remarks);
       sensor.camera = read.camera;
       sensor.T_body_camera = read.T_body_camera;
     }

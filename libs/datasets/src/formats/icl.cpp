@@ -210,7 +210,7 @@ class IclReader {
   // @return whether poses are to be mirrored
   bool addColour(const ImageShape& shape) {
     Calibration calibration = readCalibration(shape);
-    const Camera given = wantedCamera(parameters_, sequence_.remarks);
+    const Camera given = wantedCamera(parameters_, shape, sequence_.remarks);
     if (given.isValid()) calibration.camera = given;
     sequence_.info.sensors.cameras.push_back(cameraOf("rgb", calibration.camera));
     return calibration.is_mirrored && parameters_.get<bool>("mirror", true);

@@ -75,7 +75,9 @@ class KittiRawReader {
     decideSynced();
     stampImages();
     calibrate();
-    loadImageFiles(sequence_, {tree_, makeFrames(sequence_, lists_, is_synced_ ? 0 : tolerance())});
+    loadImageFiles(sequence_,
+                   {tree_, makeFrames(sequence_, lists_,
+                                      is_synced_ ? 0 : toleranceOf(parameters_, 0.02, 10))});
     readOxtsFolder();
     if (tree_->hasFolder(below("velodyne_points"))) {
       sequence_.remarks.say("velodyne_points was not read: there is no place for laser scans");
@@ -86,13 +88,6 @@ class KittiRawReader {
  private:
   std::string below(const std::string& name) const { return joined(folder_, name); }
   std::string nameBelow(const std::string& name) const { return tree_->nameOf(below(name)); }
-
-  std::int64_t tolerance() const {
-    const double seconds = parameters_.get<double>("tolerance", 0.02);
-    if (seconds >= 0 && seconds <= 10) return std::llround(seconds * 1e9);
-    throw ArgumentError("tolerance",
-                        "is " + std::to_string(seconds) + ", expected 0 to 10 seconds");
-  }
 
   // Drives are synced and rectified, or neither. Their names say which, where nobody renamed them,
   // and so does the size of images, where rectification changed that.

@@ -181,17 +181,18 @@ class Photos {
 
   void setCamera() {
     CameraSensor& sensor = sequence_.info.sensors.cameras[0];
-    if (overrideCamera(parameters_, sensor, sequence_.remarks)) return;
+    const auto shape = [&]() { return shapeOf(readImage(*tree_, photos_.front().image.file)); };
+    if (overrideCamera(parameters_, sensor, sequence_.remarks, shape)) return;
     const double focal = photos_.front().facts.focal_length_35mm;
     if (!(focal > 0)) {
       sequence_.remarks.say("the camera is not calibrated; give one with the parameter 'camera'");
       return;
     }
-    const Image image = readImage(*tree_, photos_.front().image.file);
-    const double pixels = focal / kFilmWidth * std::max(image.width(), image.height());
-    sensor.camera = Camera::fromParameters(
-        "pinhole", image.width(), image.height(),
-        {pixels, pixels, (image.width() - 1) / 2.0, (image.height() - 1) / 2.0});
+    const ImageShape images = shape();
+    const int width = images.width, height = images.height;
+    const double pixels = focal / kFilmWidth * std::max(width, height);
+    sensor.camera = Camera::fromParameters("pinhole", width, height,
+                                           {pixels, pixels, (width - 1) / 2.0, (height - 1) / 2.0});
     sequence_.remarks.say("the camera is a guess from EXIF's focal length of " +
                           std::to_string(std::lround(focal)) + " mm (as of film 36 mm wide), " +
                           photos_.front().facts.camera);

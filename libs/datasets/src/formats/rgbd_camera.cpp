@@ -40,9 +40,10 @@ Camera cameraOfText(const std::string& text, const std::string& source, int widt
   }
 }
 
-Camera wantedCamera(const Svar& parameters, Remarks& remarks) {
+Camera wantedCamera(const Svar& parameters, const ImageShape& shape, Remarks& remarks) {
   CameraSensor sensor;
-  return overrideCamera(parameters, sensor, remarks) ? sensor.camera : Camera();
+  const bool is_wanted = overrideCamera(parameters, sensor, remarks, [&]() { return shape; });
+  return is_wanted ? sensor.camera : Camera();
 }
 
 CameraSensor depthOf(const CameraSensor& colour, const FileTree& tree, const std::string& file,

@@ -23,7 +23,8 @@ namespace reading {
 Camera cameraOfText(const std::string& text, const std::string& source, int width, int height);
 
 /// The camera that the user wants, see overrideCamera(); none where that is not said.
-Camera wantedCamera(const Svar& parameters, Remarks& remarks);
+/// @param shape  of the images
+Camera wantedCamera(const Svar& parameters, const ImageShape& shape, Remarks& remarks);
 
 /// The depth of a colour camera's pixels. Reads an image of it.
 /// @param colour  the camera

@@ -141,7 +141,7 @@ class SevenScenesReader {
   }
 
   Camera cameraFor(const ImageShape& shape) {
-    const Camera given = wantedCamera(parameters_, sequence_.remarks);
+    const Camera given = wantedCamera(parameters_, shape, sequence_.remarks);
     if (given.isValid()) return given;
     const std::string file = intrinsicsFile();
     if (file.empty()) {

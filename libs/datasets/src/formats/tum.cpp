@@ -82,12 +82,6 @@ std::string recordingOf(const std::string& text) {
   return end == std::string::npos ? "" : head.substr(begin + key.size(), end - begin - key.size());
 }
 
-std::int64_t toleranceOf(const Svar& parameters) {
-  const double seconds = parameters.get<double>("tolerance", 0.02);
-  if (seconds >= 0 && seconds <= 10) return std::llround(seconds * 1e9);
-  throw ArgumentError("tolerance", "is " + std::to_string(seconds) + ", expected 0 to 10 seconds");
-}
-
 class TumReader {
  public:
   TumReader(const std::string& path, const Svar& parameters)
@@ -105,7 +99,8 @@ class TumReader {
     sayIfIcl(lists[0]);
     addColour(lists[0][0].file);
     if (parameters_.get<bool>("depth", true)) addDepth(lists);
-    const std::vector<std::string> names = makeFrames(sequence_, lists, toleranceOf(parameters_));
+    const std::vector<std::string> names =
+        makeFrames(sequence_, lists, toleranceOf(parameters_, 0.02, 10));
     loadImageFiles(sequence_, {tree_, names});
     readTruth();
     countAccelerations();
@@ -146,7 +141,7 @@ class TumReader {
   }
 
   Camera calibrationFor(const ImageShape& shape) {
-    const Camera given = wantedCamera(parameters_, sequence_.remarks);
+    const Camera given = wantedCamera(parameters_, shape, sequence_.remarks);
     const std::string recording = recordingOf(tree_->text(below("rgb.txt")));
     const Published* published = publishedFor(recording);
     if (published == nullptr) published = publishedFor(sequence_.info.name);

@@ -40,6 +40,14 @@ Photometric photometricOf(const Svar& parameters) {
   throw ArgumentError("photometric", "is '" + word + "', expected none, u8 or f32");
 }
 
+// Whether a name is that of one of the 50 sequences: others may write the layout, too.
+bool isPublished(const std::string& name) {
+  const std::string begin = "sequence_";
+  if (name.compare(0, begin.size(), begin) != 0 || name.size() != begin.size() + 2) return false;
+  const std::string number = name.substr(begin.size());
+  return number.find_first_not_of("0123456789") == number.npos && number >= "01" && number <= "50";
+}
+
 // Poses without the lines that have none, which keep their place for what errors say.
 std::string withoutNan(const std::string& text, std::size_t& without) {
   std::string result;
@@ -67,16 +75,18 @@ class TumMono {
     DatasetInfo& info = sequence_.info;
     info.name = tree_->baseName();
     info.format = "tummono";
-    info.licence = "TUM monoVO, TU Munich: CC BY 4.0; cite Engel et al., arXiv:1607.02555";
+    if (isPublished(info.name)) {
+      info.licence = "TUM monoVO, TU Munich: CC BY 4.0; cite Engel et al., arXiv:1607.02555";
+    }
     info.body = "the camera";
     info.clock = "POSIX time of the recording computer, in seconds";
     findImages();
   }
 
   std::unique_ptr<Dataset> open() {
-    readCamera();
     std::vector<ListedImage> images = readTimes();
     tidy(images, *images_, "times.txt", sequence_.remarks);
+    readCamera(images);
     readTruth();
     std::vector<std::string> names = makeFrames(sequence_, {images}, 0);
     loadImageFiles(sequence_, {images_, names});
@@ -108,12 +118,13 @@ class TumMono {
     }
   }
 
-  void readCamera() {
+  void readCamera(const std::vector<ListedImage>& images) {
     CameraSensor sensor;
     sensor.name = "camera";
     CalibrationOptions options;
     options.format = "dso";
-    if (overrideCamera(parameters_, sensor, sequence_.remarks)) {
+    if (overrideCamera(parameters_, sensor, sequence_.remarks,
+                       [&]() { return shapeOfFirst(*images_, images); })) {
       // as the user wants it
     } else if (tree_->has("camera.txt")) {
       const Calibration found = calibrationIn(*tree_, "camera.txt", sequence_.remarks, options);

@@ -5,6 +5,7 @@
 // bit images and mocap0, whose poses are those of the IMU; dso/ with Kalibr's camchain.yaml and
 // imu_config.yaml, and for each camera times.txt: stamp in ns, in s, exposure in ms. The stamp is
 // the middle of the exposure.
+#include <gslam/base/error.h>
 #include <gslam/core/detail/field_reader.h>
 #include <gslam/datasets/formats.h>
 
@@ -18,44 +19,53 @@ inline namespace v1 {
 namespace reading {
 namespace {
 
-using Exposures = std::map<std::int64_t, std::int64_t>;
-
-Exposures readExposures(const Asl& asl, const std::string& file) {
+AslExposures readExposures(const Asl& asl, const std::string& file) {
   const std::string text = asl.tree->text(file), name = asl.tree->nameOf(file);
   detail::FieldReader in(text, name, "stamp (ns), stamp (s), exposure (ms)");
-  Exposures exposures;
+  AslExposures exposures;
+  exposures.file = file;
   while (in.nextLine()) {
     const std::int64_t stamp = in.stamp("nanoseconds", 0);
-    in.stamp("seconds", 9);
+    const std::int64_t rounded = in.stamp("seconds", 9);
     const char* const at = in.place();
     const std::int64_t exposure = in.stamp("milliseconds", 6);
     if (exposure < 0) in.fail(at, "the exposure is negative, expected milliseconds");
     in.endLine();
-    exposures[stamp] = exposure;
+    exposures.exact[stamp] = exposure;
+    exposures.rounded[rounded] = exposure;
   }
   return exposures;
 }
 
-std::vector<Exposures> readAllExposures(Asl& asl) {
-  std::vector<Exposures> all;
+std::vector<AslExposures> readAllExposures(Asl& asl) {
+  std::vector<AslExposures> all;
   for (std::size_t number : asl.cameras) {
     const std::string file = "dso/cam" + std::to_string(number) + "/times.txt";
     const bool is_there = asl.tree->has(file);
     if (!is_there) asl.sequence.remarks.say("there is no " + file + ": exposures are not known");
-    all.push_back(is_there ? readExposures(asl, file) : Exposures());
+    all.push_back(is_there ? readExposures(asl, file) : AslExposures());
   }
   return all;
 }
 
+const char* const kCameras = "dso/camchain.yaml";
+
 // Kalibr's files in dso/; without them what sensor.yaml had, if there was one.
-void takeKalibrsFiles(Asl& asl) {
+void takeKalibrsFiles(Asl& asl, bool is_replaced) {
+  Remarks& remarks = asl.sequence.remarks;
   CalibrationOptions options;
   options.format = "kalibr";
-  for (const char* file : {"dso/camchain.yaml", "dso/imu_config.yaml"}) {
-    if (asl.tree->has(file)) {
-      takeCalibration(asl, calibrationIn(*asl.tree, file, asl.sequence.remarks, options), file);
-    } else {
-      asl.sequence.remarks.say(std::string("there is no ") + file);
+  for (const std::string file : {kCameras, "dso/imu_config.yaml"}) {
+    if (!asl.tree->has(file)) {
+      remarks.say("there is no " + file);
+      continue;
+    }
+    try {
+      takeCalibration(asl, calibrationIn(*asl.tree, file, remarks, options), file);
+    } catch (const ParseError& error) {
+      if (!is_replaced || file != kCameras) throw;
+      remarks.say(std::string("a file that the parameter calibration replaces was not used: ") +
+                  error.what());
     }
   }
 }
@@ -64,13 +74,17 @@ std::unique_ptr<Dataset> openTumVi(const std::string& path, const Svar& paramete
   Asl asl = openAsl(path, parameters);
   DatasetInfo& info = asl.sequence.info;
   info.format = "tumvi";
-  info.licence = "TUM VI, TU Munich: CC BY 4.0; cite Schubert et al., IROS 2018";
+  if (info.name.compare(0, 8, "dataset-") == 0) {  // as all archives are called
+    info.licence = "TUM VI, TU Munich: CC BY 4.0; cite Schubert et al., IROS 2018";
+  }
   info.body = "the IMU";
   info.clock = "POSIX time of the recording computer, in nanoseconds";
-  readAslSensors(asl);
-  if (!takeCalibrationOfUser(asl)) takeKalibrsFiles(asl);
+  const bool is_replaced = isCalibrationOfUser(asl);
+  readAslSensors(asl, is_replaced || asl.tree->has(kCameras));
+  takeKalibrsFiles(asl, is_replaced);
+  takeCalibrationOfUser(asl, "EquiDistant");
   readAslTruth(asl);
-  const std::vector<Exposures> exposures = readAllExposures(asl);
+  const std::vector<AslExposures> exposures = readAllExposures(asl);
   return deliverAsl(std::move(asl), exposures);
 }
 

@@ -95,6 +95,10 @@ void tidy(std::vector<ListedImage>& images, const FileTree& tree, const std::str
   images.resize(kept);
 }
 
+ImageShape shapeOfFirst(const FileTree& tree, const std::vector<ListedImage>& images) {
+  return images.empty() ? ImageShape() : shapeOf(readImage(tree, images.front().file));
+}
+
 std::vector<std::string> makeFrames(Sequence& sequence,
                                     const std::vector<std::vector<ListedImage>>& lists,
                                     std::int64_t tolerance) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "decode.h"
 #include "file_tree.h"
 #include "remarks.h"
 #include "sequence.h"
@@ -40,6 +41,9 @@ std::vector<ListedImage> readImageList(const FileTree& tree, const std::string& 
 /// @param list  name of the list, for remarks
 void tidy(std::vector<ListedImage>& images, const FileTree& tree, const std::string& list,
           Remarks& remarks);
+
+/// What the first image is like, which is read; of size 0 where there is none.
+ImageShape shapeOfFirst(const FileTree& tree, const std::vector<ListedImage>& images);
 
 /// Makes frames of the images of several cameras: each image of the first camera with the image
 /// nearest in time of each other one, which no other frame has (associate()). A frame that lacks

@@ -226,10 +226,18 @@ void sortSamples(std::vector<Sample>& samples, const std::string& file, Remarks&
   for (std::size_t i = 1; i < samples.size(); ++i) {
     if (isBefore(samples[i], samples[i - 1])) ++late;
   }
-  if (late == 0) return;
-  remarks.say(std::to_string(late) + " lines of " + file +
-              " have an earlier stamp than the line before: they are sorted");
-  std::stable_sort(samples.begin(), samples.end(), isBefore);
+  if (late > 0) {
+    remarks.say(std::to_string(late) + " lines of " + file +
+                " have an earlier stamp than the line before: they are sorted");
+    std::stable_sort(samples.begin(), samples.end(), isBefore);
+  }
+  const auto isTwin = [&](const Sample& a, const Sample& b) {
+    if (a.stamp != b.stamp) return false;
+    remarks.skip("samples of " + file + " that have the stamp of another",
+                 secondsText(b.stamp) + " s");
+    return true;
+  };
+  samples.erase(std::unique(samples.begin(), samples.end(), isTwin), samples.end());
 }
 
 // A camera's model must be for the images that it has.
@@ -267,6 +275,13 @@ Prefetch prefetchOf(const Svar& parameters) {
   read("threads", 0, 256, prefetch.threads);
   read("ahead", 1, 100000, prefetch.frames);
   return prefetch;
+}
+
+std::int64_t toleranceOf(const Svar& parameters, double usual, int most) {
+  const double seconds = parameters.get<double>("tolerance", usual);
+  if (seconds >= 0 && seconds <= most) return std::llround(seconds * 1e9);
+  throw ArgumentError("tolerance", "is " + std::to_string(seconds) + ", expected 0 to " +
+                                       std::to_string(most) + " seconds");
 }
 
 std::unique_ptr<Dataset> deliver(Sequence sequence, const Prefetch& prefetch) {

@@ -62,6 +62,11 @@ GSLAM_DATASETS_EXPORT Svar commonParameters();
 /// @throws ArgumentError when one is out of range
 GSLAM_DATASETS_EXPORT Prefetch prefetchOf(const Svar& parameters);
 
+/// The parameter `tolerance`, which is in seconds, in nanoseconds.
+/// @param usual, most  seconds
+/// @throws ArgumentError when it is below 0 or above `most`
+std::int64_t toleranceOf(const Svar& parameters, double usual, int most);
+
 /// Delivers a sequence: frames go out in order, with the inertial and satellite samples after the
 /// frame before and up to the frame's stamp (the first frame has all up to its own). Those of a
 /// frame that cannot be loaded go out with the one after it. Gaps between frames, and samples that
@@ -82,8 +87,9 @@ struct ImageFiles {
 /// @throws FileError that names the image
 void loadImageFiles(Sequence& sequence, ImageFiles files);
 
-/// Sorts frames by stamp, or samples, which are nearly sorted; says how many were out of order.
-/// Twins (equal stamps) stay in their order.
+/// Sorts samples by stamp, and takes out those that have the stamp of another before them. Says how
+/// many were out of order, and which were taken out.
+/// @param file  what remarks call their file
 void sortByStamp(std::vector<ImuSample>& samples, const std::string& file, Remarks& remarks);
 void sortByStamp(std::vector<GnssSample>& samples, const std::string& file, Remarks& remarks);
 

@@ -55,18 +55,20 @@ struct Calibration {
   std::vector<std::string> remarks;
 };
 
+// clang-format off
 /// Reads a calibration.
 ///
 /// | format | cameras | other |
 /// | --- | --- | --- |
-/// | kalibr | pinhole, omni, ds, eucm with radtan, equidistant, fov, none | chain, IMU, time shift
-/// | | opencv | 0, 4, 5, 8, 12, 14 coefficients, fisheye, omnidir; YAML, XML; ROS' camera_info | R,
-/// T | | ocamcalib | polynomial of up to 5 coefficients | | | basalt | ds, eucm, ucm, kb4, fov,
-/// pinhole, pinhole-radtan8 | IMU, time offset | | orbslam | PinHole, KannalaBrandt8, Rectified; of
-/// ORB-SLAM2, too | baseline, IMU, depth | | colmap | cameras.txt: all models that Camera has | |
+/// | kalibr | pinhole, omni, ds, eucm with radtan, equidistant, fov, none | chain, IMU, time shift |
+/// | opencv | 0, 4, 5, 8, 12, 14 coefficients, fisheye, omnidir; YAML, XML; ROS' camera_info | R, T |
+/// | ocamcalib | polynomial of up to 5 coefficients | |
+/// | basalt | ds, eucm, ucm, kb4, fov, pinhole, pinhole-radtan8 | IMU, time offset |
+/// | orbslam | PinHole, KannalaBrandt8, Rectified; of ORB-SLAM2, too | baseline, IMU, depth |
+/// | colmap | cameras.txt: all models that Camera has | |
 /// | euroc | sensor.yaml of a camera or an IMU | T_BS, rates |
 /// | dso | camera.txt: Pinhole, FOV, RadTan, EquiDistant, KannalaBrandt | |
-/// | stella | perspective, fisheye, equirectangular | baseline, rectification, depth |
+/// | stella | perspective, fisheye, equirectangular; OpenVSLAM's, too | baseline, rectification, depth |
 /// | svo | ATAN, Pinhole, Equidistant | |
 ///
 /// Cameras are those of the images as they were taken: what a file says of images that its program
@@ -78,6 +80,7 @@ struct Calibration {
 /// @throws FileError when it cannot be read; ParseError that names file, line or field, and what
 ///   was expected, when it is none of the formats, or not as its format wants it
 /// @throws ArgumentError when an option is wrong
+// clang-format on
 GSLAM_DATASETS_EXPORT Calibration
 readCalibration(const std::string& path, const CalibrationOptions& options = CalibrationOptions());
 

@@ -100,9 +100,9 @@ GSLAM_DATASETS_EXPORT DatasetFactory tumMonoFactory();
 /// `euroc`: EuRoC MAV and others in the ASL layout: the folder around mav0, or mav0. `cameras`:
 /// numbers of those to read, "0" or "0,1"; "": all. `list`: the file of each camera that names its
 /// images, "data.csv". `tolerance`: most seconds between the images of a frame, 0. `calibration`: a
-/// file that readCalibration() reads, in place of what sensor.yaml says. `truth`: the folder of the
-/// ground truth; "": the first of state_groundtruth_estimate0, mocap0, vicon0; leica0 has positions
-/// only.
+/// file that readCalibration() reads, in place of the models that sensor.yaml has; where cameras
+/// are is taken from it as far as it says that. `truth`: the folder of the ground truth; "": the
+/// first of state_groundtruth_estimate0, mocap0, vicon0; leica0 has positions only.
 GSLAM_DATASETS_EXPORT DatasetFactory eurocFactory();
 /// `tumvi`: TUM VI, the archives of EuRoC and DSO layout, 512 or 1024, 8 or 16 bits: mav0/ and, for
 /// exposures and calibration, dso/. The parameters are those of eurocFactory().
