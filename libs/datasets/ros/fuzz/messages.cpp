@@ -20,7 +20,7 @@ void decodeAny(std::uint8_t type, Bytes bytes, WireKind kind, const std::string&
       decodeRaw(decode<ImageMessage>(bytes, kind, name), type >= 128, name);
       break;
     case 1:
-      decode<CompressedImageMessage>(bytes, kind, name);
+      decodeCompressed(decode<CompressedImageMessage>(bytes, kind, name), type >= 128, name);
       break;
     case 2:
       cameraOf(decode<CameraInfo>(bytes, kind, name), type >= 128, name);

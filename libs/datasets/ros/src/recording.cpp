@@ -66,11 +66,11 @@ class Files : public Recording {
   std::vector<MessageRef> messages() const override { return messages_; }
 
   std::vector<std::uint8_t> read(const MessageRef& message) const override {
-    return unpacked(storageOf(message).read(message), message);
+    return unpacked(storageOf(message).read(inFile(message)), message);
   }
   std::vector<std::uint8_t> readHead(const MessageRef& message, std::size_t size) const override {
     if (are_packed_) return read(message);
-    return storageOf(message).readHead(message, size);
+    return storageOf(message).readHead(inFile(message), size);
   }
 
  private:
@@ -88,8 +88,10 @@ class Files : public Recording {
   void add(std::unique_ptr<Storage> storage) {
     std::vector<std::uint32_t> places;
     for (const RecordedTopic& topic : storage->list.topics) {
-      places.push_back(list_.add(topic.name, topic.type, topic.encoding));
+      places.push_back(list_.add(topic.name, topic.type, topic.encoding, path_));
     }
+    std::map<std::uint32_t, std::uint32_t> back;
+    for (std::uint32_t i = 0; i < places.size(); ++i) back[places[i]] = i;
     const std::uint32_t file = static_cast<std::uint32_t>(files_.size());
     messages_.reserve(messages_.size() + storage->messages.size());
     for (MessageRef message : storage->messages) {
@@ -100,6 +102,7 @@ class Files : public Recording {
     storage->messages = {};
     remarks_.insert(remarks_.end(), storage->remarks.begin(), storage->remarks.end());
     files_.push_back(std::move(storage));
+    topics_in_files_.push_back(std::move(back));
   }
 
   void finish() {
@@ -121,6 +124,15 @@ class Files : public Recording {
     return *files_[message.file];
   }
 
+  // The message with the topic's number in its own file.
+  MessageRef inFile(MessageRef message) const {
+    const auto& topics = topics_in_files_[message.file];
+    const auto found = topics.find(message.topic);
+    if (found == topics.end()) throw ArgumentError("message", "is of another recording");
+    message.topic = found->second;
+    return message;
+  }
+
   std::vector<std::uint8_t> unpacked(std::vector<std::uint8_t> bytes,
                                      const MessageRef& message) const {
     if (!are_packed_) return bytes;
@@ -137,6 +149,8 @@ class Files : public Recording {
   std::vector<MessageRef> messages_;
   std::vector<std::string> remarks_;
   std::vector<std::unique_ptr<Storage>> files_;
+  // For each file: from topics of all to its own.
+  std::vector<std::map<std::uint32_t, std::uint32_t>> topics_in_files_;
   bool are_packed_ = false;
 };
 

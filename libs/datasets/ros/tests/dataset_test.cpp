@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 
 #include "dataset/group_images.h"
@@ -220,6 +222,175 @@ TEST(ros_dataset, stamps_when_messages_were_received) {
   EXPECT_EQ(dataset->info().first_stamp, stampOf(0) + 3 * kMs);
 }
 
+// In all of what has stamps, or a truth would be 3 ms beside its images.
+TEST(ros_dataset, stamps_when_messages_were_received_count_for_all_topics) {
+  std::vector<Recorded> messages = rigMessages();
+  for (int i = 0; i < kFrames; ++i) {
+    messages.push_back({"/odom", "nav_msgs/Odometry", stampOf(i) + 3 * kMs,
+                        odometryBytes(kCoding, stampOf(i), {double(i), 0, 0, 0, 0, 0, 1}, 0.1)});
+  }
+  const auto dataset =
+      open(writeMcap("received.mcap", messages),
+           Svar::object({{"stamps", "received"}, {"odometry", "/odom"}, {"tolerance", 0.0025}}));
+  EXPECT_EQ(dataset->info().ground_truth[1].stamp, stampOf(1) + 3 * kMs);
+  dataset->seek(1);
+  const auto frame = dataset->next();
+  EXPECT_EQ(frame->stamp, stampOf(1) + 3 * kMs);
+  ASSERT_TRUE(frame->has_prior);
+  EXPECT_EQ(frame->prior.pose().translation()[0], 1);
+  ASSERT_FALSE(frame->imu.empty());
+  EXPECT_EQ(frame->imu.back().stamp, stampOf(1) + kMs);  // of /imu, 1 ms after it was measured
+  ASSERT_EQ(frame->gnss.size(), 1U);
+  EXPECT_EQ(frame->gnss[0].stamp, stampOf(1) + 3 * kMs);
+}
+
+// As stereo_image_proc has it: both cameras name the frame of the left one.
+TEST(ros_dataset, the_right_camera_of_a_rectified_pair_is_where_p_says) {
+  constexpr double kBaseline = 0.25;
+  const auto messagesOf = [](const std::string& name, const char* frame, double p3) {
+    InfoFields info;
+    info.p = {100, 0, 1.5, p3, 0, 100, 1, 0, 0, 0, 1, 0};
+    return std::vector<Recorded>{{"/" + name + "/image_rect", "sensor_msgs/Image", kStart,
+                                  imageBytes(kCoding, kStart, frame, kWidth, kHeight, "mono8",
+                                             kWidth, false, pixelsOf(0, 1))},
+                                 {"/" + name + "/camera_info", "sensor_msgs/CameraInfo", kStart,
+                                  infoBytes(kCoding, kStart, frame, info)}};
+  };
+  std::vector<Recorded> messages = messagesOf("left", "optical", 0);
+  const auto right = messagesOf("right", "optical", -100 * kBaseline);
+  messages.insert(messages.end(), right.begin(), right.end());
+  const auto pair = open(writeMcap("pair.mcap", messages));
+  const auto& cameras = pair->info().sensors.cameras;
+  ASSERT_EQ(cameras.size(), 2U);
+  EXPECT_EQ(cameras[0].T_body_camera.translation(), (gslam::Vec3d{0, 0, 0}));
+  EXPECT_EQ(cameras[1].T_body_camera.translation(), (gslam::Vec3d{kBaseline, 0, 0}));
+  // P in the frame of the left camera, and the right camera from where it is: the same pixel.
+  const gslam::Vec3d point{0.3, -0.2, 5};
+  const gslam::Vec3d in_right = cameras[1].T_body_camera.inverse() * point;
+  const double u = (100 * point[0] + 1.5 * point[2] - 100 * kBaseline) / point[2];
+  EXPECT_NEAR(100 * in_right[0] / in_right[2] + 1.5, u, 1e-12);
+  EXPECT_TRUE(hasAny(pair->info().remarks, "P of /right/camera_info is the calibration"));
+  EXPECT_FALSE(hasAny(pair->info().remarks, "was not applied"));
+
+  const auto alone = open(writeMcap("alone.mcap", messagesOf("right", "optical", -25)));
+  EXPECT_EQ(alone->info().sensors.cameras[0].T_body_camera.translation(), (gslam::Vec3d{0, 0, 0}));
+  EXPECT_TRUE(hasAny(alone->info().remarks, "the fourth column of P of camera 'right' was not"));
+
+  // Where the right one comes first, it is still beside the frame, which is the body.
+  const auto turned = open(writeMcap("pair.mcap", messages),
+                           Svar::object({{"images", "/right/image_rect,/left/image_rect"}}));
+  EXPECT_EQ(turned->info().sensors.cameras[0].T_body_camera.translation(),
+            (gslam::Vec3d{kBaseline, 0, 0}));
+  EXPECT_EQ(turned->info().body, "the frame of camera 'right' (frame 'optical')");
+}
+
+TEST(ros_dataset, calibrations_that_change_are_said) {
+  std::vector<Recorded> messages = rigMessages();
+  InfoFields zoomed;
+  zoomed.k[0] = 200;
+  messages.push_back({"/left/camera_info", "sensor_msgs/CameraInfo", stampOf(9),
+                      infoBytes(kCoding, stampOf(9), "left", zoomed)});
+  messages.push_back({"/left/camera_info", "sensor_msgs/CameraInfo", stampOf(10), {0, 1, 0, 0}});
+  const auto dataset = open(writeMcap("zoom.mcap", messages));
+  EXPECT_EQ(dataset->info().sensors.cameras[0].camera.parameter("fx"), 100);
+  const auto& remarks = dataset->info().remarks;
+  EXPECT_TRUE(hasAny(remarks, "skipped 1 calibrations of /left/camera_info that differ"));
+  EXPECT_TRUE(hasAny(remarks, "skipped 1 calibrations of /left/camera_info that cannot be read"));
+  EXPECT_FALSE(hasAny(remarks, "calibrations of /right/camera_info"));
+}
+
+TEST(ros_dataset, of_static_transforms_that_change_the_last_one_counts) {
+  std::vector<Recorded> messages = rigMessages();
+  const auto place = [](double x) {
+    return Recorded{"/tf_static", "tf2_msgs/TFMessage", stampOf(3),
+                    transformBytes(kCoding, kStart, "/left", "right", {x, 0, 0, 0, 0, 0, 1})};
+  };
+  messages.push_back(place(0.5));  // the same again
+  EXPECT_FALSE(hasAny(open(writeMcap("again.mcap", messages))->info().remarks, "changes"));
+  messages.push_back(place(0.75));
+  const auto dataset = open(writeMcap("moved.mcap", messages));
+  const gslam::Vec3d right = dataset->info().sensors.cameras[1].T_body_camera.translation();
+  EXPECT_NEAR((right - gslam::Vec3d{0.1, -0.55, 0.3}).norm(), 0, 1e-12);
+  EXPECT_TRUE(hasAny(dataset->info().remarks,
+                     "the static transform of /left to right changes: the last one was taken"));
+}
+
+TEST(ros_dataset, a_topic_of_images_that_cannot_be_read_stops_no_other) {
+  std::vector<Recorded> messages = rigMessages();
+  messages.push_back({"/cloud/image", "sensor_msgs/Image", kStart,
+                      imageBytes(kCoding, kStart, "left", 4, 3, "yuv422", 8, false, noise(24, 1))});
+  const std::string path = writeMcap("yuv.mcap", messages);
+  const auto dataset = open(path);
+  EXPECT_EQ(dataset->info().sensors.cameras.size(), 2U);
+  const auto& remarks = dataset->info().remarks;
+  EXPECT_TRUE(hasAny(remarks, "camera 'cloud' was left out: "));
+  EXPECT_TRUE(hasAny(remarks, "the encoding of the image is 'yuv422'"));
+  EXPECT_TRUE(hasAny(remarks, "topic /cloud/image of type sensor_msgs/msg/Image was not read"));
+  EXPECT_TRUE(has(errorOf([&] {
+                    open(path, Svar::object({{"images", "/cloud/image"}}));
+                  }),
+                  "the encoding of the image is 'yuv422'"));
+  EXPECT_TRUE(has(errorOf([&] { open(writeMcap("only_yuv.mcap", {messages.back()})); }),
+                  "the encoding of the image is 'yuv422'"));
+}
+
+TEST(ros_dataset, stamps_too_dense_for_the_tolerance_and_too_many_cameras_are_refused) {
+  std::vector<Recorded> dense;
+  for (int i = 0; i < 1200; ++i) {
+    for (const char* topic : {"/a/image", "/b/image"}) {
+      dense.push_back({topic, "sensor_msgs/Image", kStart + i,
+                       imageBytes(kCoding, kStart + i, "f", 1, 1, "mono8", 1, false, {7})});
+    }
+  }
+  const std::string path = writeMcap("dense.mcap", dense);
+  const std::string error = errorOf([&] { open(path); });
+  EXPECT_TRUE(has(error, "topic /a/image has more than 1000 messages within the `tolerance`"));
+  EXPECT_EQ(open(path, Svar::object({{"tolerance", 5e-7}}))->info().frame_count, 1200U);
+  std::vector<Recorded> cameras;
+  for (int i = 0; i < 300; ++i) {
+    cameras.push_back({"/c" + std::to_string(i) + "/image", "sensor_msgs/Image", kStart,
+                       imageBytes(kCoding, kStart, "f", 1, 1, "mono8", 1, false, {7})});
+  }
+  const std::string many = writeMcap("cameras.mcap", cameras);
+  EXPECT_TRUE(has(errorOf([&] { open(many); }), "has 300 topics of images, more than 256"));
+  // Of topics that are not read, the first ones are named.
+  const auto few = open(many, Svar::object({{"images", "/c7/image"}}));
+  EXPECT_TRUE(hasAny(few->info().remarks, "249 more topics were not read"));
+  EXPECT_LT(few->info().remarks.size(), 60U);
+}
+
+TEST(ros_dataset, stamps_further_apart_than_an_int64) {
+  std::vector<Recorded> messages;
+  // CDR has signed seconds; received is what is not.
+  for (const std::int64_t stamp : {-2147483648LL * 1000000000, 2147483647LL * 1000000000}) {
+    Encoder out(kCoding);
+    out.number(static_cast<std::int32_t>(stamp / 1000000000)).u32(0).text("map");
+    messages.push_back({"/gt", "geometry_msgs/PoseStamped", 5 + std::int64_t(messages.size()),
+                        out.f64s({1, 2, 3, 0, 0, 0, 1}).bytes()});
+  }
+  messages.push_back({"/gt", "geometry_msgs/PoseStamped", INT64_MAX,
+                      poseBytes(kCoding, 0, {1, 2, 3, 0, 0, 0, 1})});
+  const std::string path = writeMcap("apart.mcap", messages);
+  const auto error = errorOf([&] { open(path, Svar::object({{"frame_every", 1.0}})); });
+  EXPECT_TRUE(has(error, "from -2147483648.000000000 to 9223372036.854775807 s")) << error;
+}
+
+TEST(ros_dataset, a_covariance_of_a_position_that_is_not_finite_is_none) {
+  std::vector<Recorded> messages = rigMessages();
+  Recorded fix = {"/fix", "sensor_msgs/NavSatFix", stampOf(1) + 10 * kMs,
+                  fixBytes(kCoding, stampOf(1) + 10 * kMs, 0, {48, 11, 500})};
+  const double nan = std::nan("");
+  std::memcpy(&fix.bytes[fix.bytes.size() - 9], &nan, sizeof(nan));  // the last of the nine
+  messages.push_back(fix);
+  const auto dataset = open(writeMcap("fix.mcap", messages));
+  EXPECT_TRUE(hasAny(dataset->info().remarks, "skipped 1 covariances of /fix that are not finite"));
+  dataset->seek(2);
+  const auto frame = dataset->next();
+  ASSERT_EQ(frame->gnss.size(), 2U);
+  EXPECT_EQ(frame->gnss[0].covariance, gslam::Mat3d());
+  EXPECT_EQ(frame->gnss[1].covariance(1, 1), 5);
+}
+
 TEST(ros_dataset, frames_that_lack_an_image) {
   std::vector<Recorded> messages;
   for (int i = 0; i < kFrames; ++i) {
@@ -408,6 +579,26 @@ TEST(ros_dataset, is_recognized_by_its_name) {
 }
 
 // --- parts ---------------------------------------------------------------------------------------
+
+TEST(ros_topics, names_of_rectified_images_and_of_depth) {
+  using gslam::ros::saysDepth;
+  using gslam::ros::saysRectified;
+  for (const char* name : {"/left/image_rect", "/left/image_rect_color/compressed",
+                           "/image_rectified", "/camera/depth/image_rect_raw"}) {
+    EXPECT_TRUE(saysRectified(name)) << name;
+  }
+  for (const char* name : {"/direct_cam/image_raw", "/rect/image_raw", "/left/image_direct",
+                           "/rectangle", "/image_raw/compressed"}) {
+    EXPECT_FALSE(saysRectified(name)) << name;
+  }
+  for (const char* name : {"/camera/depth/image_raw", "/depth_registered/image",
+                           "/aligned_depth_to_color", "/cam/image/compressedDepth", "/Depth"}) {
+    EXPECT_TRUE(saysDepth(name)) << name;
+  }
+  for (const char* name : {"/indepth_cam/image", "/depths/image", "/cam/image"}) {
+    EXPECT_FALSE(saysDepth(name)) << name;
+  }
+}
 
 TEST(ros_topics, names_of_cameras) {
   using gslam::ros::cameraNameOf;

@@ -110,6 +110,7 @@ struct InfoFields {
   std::string model = "plumb_bob";
   std::vector<double> d, k = {100, 0, 1.5, 0, 110, 1, 0, 0, 1};
   std::vector<double> p = std::vector<double>(12, 0);
+  std::uint32_t binning = 0;
 };
 
 inline std::vector<std::uint8_t> infoBytes(Coding coding, std::int64_t stamp,
@@ -117,7 +118,7 @@ inline std::vector<std::uint8_t> infoBytes(Coding coding, std::int64_t stamp,
   Encoder out(coding);
   out.header(stamp, frame).u32(info.height).u32(info.width).text(info.model);
   out.u32(info.d.size()).f64s(info.d).f64s(info.k).f64s({1, 0, 0, 0, 1, 0, 0, 0, 1}).f64s(info.p);
-  out.u32(0).u32(0).u32(0).u32(0).u32(0).u32(0).u8(0);
+  out.u32(info.binning).u32(info.binning).u32(0).u32(0).u32(0).u32(0).u8(0);
   return out.bytes();
 }
 

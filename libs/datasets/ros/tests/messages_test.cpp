@@ -269,6 +269,25 @@ TEST(images, compressed_ones_are_as_opencv_decodes_them) {
   EXPECT_EQ(decoded_depth.kind, ImageKind::depth);
 }
 
+TEST(images, compressed_ones_are_jpeg_or_png_and_as_large_as_expected) {
+  cv::Mat colour(20, 30, CV_8UC3);
+  cv::randu(colour, 0, 256);
+  for (const char* ending : {".bmp", ".tiff"}) {
+    const std::string error = errorOf([&] { decodeAs("32FC1; tiff", encoded(ending, colour)); });
+    EXPECT_TRUE(has(error, "the image of format '32FC1; tiff' is neither JPEG nor PNG")) << error;
+  }
+  const gslam::reading::ImageShape same = {30, 20, PixelType::u8, 3};
+  const gslam::reading::ImageShape other = {20, 30, PixelType::u8, 3};
+  for (const char* ending : {".png", ".jpg"}) {
+    const RawBytes data = encoded(ending, colour);
+    CompressedImageMessage message;
+    message.data = Bytes(data);
+    EXPECT_EQ(decodeCompressed(message, false, kName, &same).image.width(), 30);
+    EXPECT_TRUE(has(errorOf([&] { decodeCompressed(message, false, kName, &other); }),
+                    "is 30 x 20, but the camera's first image is 20 x 30"));
+  }
+}
+
 RawBytes withHead(float a, float b, const RawBytes& png) {
   RawBytes bytes(12 + png.size());
   std::memcpy(bytes.data() + 4, &a, 4);
@@ -291,6 +310,12 @@ TEST(images, compressed_depth_of_16_bits_and_of_floats) {
   ASSERT_EQ(metres.image.type(), PixelType::f32);
   EXPECT_EQ(metres.depth_scale, 1);
   EXPECT_TRUE(std::isnan(metres.image.at<float>(3, 2)));
+  CompressedImageMessage again;
+  again.format = "32FC1; compressedDepth png";
+  const RawBytes data = withHead(20000, -10, png);
+  again.data = Bytes(data);
+  const gslam::reading::ImageShape shape = gslam::reading::shapeOf(metres.image);
+  EXPECT_EQ(decodeCompressed(again, true, kName, &shape).image.type(), PixelType::f32);
   const double wanted = 20000.0 / (stored.at<std::uint16_t>(1, 1) + 10.0);
   EXPECT_NEAR(metres.image.at<float>(1, 1), wanted, 1e-5);
   EXPECT_TRUE(
@@ -369,6 +394,28 @@ TEST(cameras, rectified_images_have_p_and_parts_of_images_their_part) {
   EXPECT_EQ(part.height(), 50);
   EXPECT_EQ(part.parameter("fx"), 250);
   EXPECT_EQ(part.parameter("cx"), (320 - 100 + 0.5) / 2 - 0.5);
+  // Pixels that fill no binned one are left out, and change no focal length.
+  info.roi_width = 203;
+  info.roi_height = 101;
+  info.binning_x = 4;
+  info.binning_y = 2;
+  const gslam::Camera odd = cameraOf(info, false, kName);
+  EXPECT_EQ(odd.width(), 50);
+  EXPECT_EQ(odd.height(), 50);
+  EXPECT_EQ(odd.parameter("fx"), 125);
+  EXPECT_EQ(odd.parameter("fy"), 255);
+  EXPECT_EQ(odd.parameter("cx"), (320 - 100 + 0.5) / 4 - 0.5);
+  info.roi_height = 0;
+  EXPECT_TRUE(has(errorOf([&] { cameraOf(info, false, kName); }), "has 203 x 0 pixels"));
+}
+
+TEST(cameras, the_fourth_column_of_p_is_a_place) {
+  InfoFields fields;
+  fields.p = {400, 0, 310, -48, 0, 500, 230, 50, 0, 0, 1, 0};
+  EXPECT_EQ(offsetOf(infoOf(fields)), (gslam::Vec3d{0.12, -0.1, 0}));
+  fields.p[3] = std::nan("");
+  EXPECT_EQ(offsetOf(infoOf(fields)), (gslam::Vec3d{0, 0, 0}));
+  EXPECT_EQ(offsetOf(infoOf(InfoFields())), (gslam::Vec3d{0, 0, 0}));
 }
 
 }  // namespace

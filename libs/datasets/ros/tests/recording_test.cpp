@@ -8,6 +8,7 @@
 #include <thread>
 #include <tuple>
 
+#include "bag_writer.h"
 #include "bytes/byte_source.h"
 #include "db3_writer.h"
 #include "mcap_writer.h"
@@ -294,6 +295,39 @@ TEST(recording, a_count_of_metadata_that_is_not_that_of_the_files_is_said) {
   writeFile(folder + "/a.mcap", mcap_writer::write(fewer));
   writeMetadata(folder, "a.mcap", "");
   EXPECT_TRUE(hasAny(Recording::open(folder)->remarks(), "counts 27 messages, but there are 26"));
+}
+
+TEST(recording, a_file_that_metadata_names_twice_is_refused) {
+  const std::string folder = makeFolder("twice");
+  writeFile(folder + "/a.mcap", mcap_writer::write(someMessages()));
+  writeMetadata(folder, "a.mcap, twice/a.mcap", "");
+  EXPECT_TRUE(has(errorOf([&] { Recording::open(folder); }), "/a.mcap twice"));
+}
+
+// Each file has its own numbers of topics.
+TEST(recording, files_whose_topics_are_in_another_order) {
+  const std::string folder = makeFolder("orders");
+  std::vector<Recorded> first = someMessages();
+  std::vector<Recorded> second(first.begin() + 10, first.end());
+  first.resize(10);
+  std::reverse(second.begin(), second.end());
+  std::swap(second[0], second[1]);
+  ASSERT_NE(first[0].topic, second[0].topic);
+  writeFile(folder + "/a.mcap", mcap_writer::write(first));
+  writeFile(folder + "/c.mcap", mcap_writer::write(second));
+  writeMetadata(folder, "a.mcap, c.mcap", "");
+  expectSame(contentOf(*Recording::open(folder)), asWritten());
+}
+
+TEST(recording, a_bag_that_is_still_called_active_is_a_bag) {
+  const std::string path = folderOfTests() + "run.bag.active";
+  bag_writer::Shape shape;
+  shape.is_chunk_closed = false;
+  writeFile(path, bag_writer::write(shape).bytes);
+  EXPECT_TRUE(gslam::isRecording(path));
+  const auto recording = Recording::open(path);
+  EXPECT_EQ(recording->messages().size(), 10U);
+  EXPECT_TRUE(hasAny(recording->remarks(), "it was not closed"));
 }
 
 TEST(recording, what_is_no_recording_is_no_recording) {

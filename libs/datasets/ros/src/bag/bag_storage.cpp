@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "../bytes/block_cache.h"
+#include "../storage/few_sentences.h"
 #include "../storage/storage.h"
 #include "records.h"
 
@@ -56,7 +57,10 @@ class BagStorage : public Storage {
   // --- what there is -----------------------------------------------------------------------------
 
   void addConnection(const Connection& connection) {
-    connections_[connection.id] = list.add(connection.topic, connection.type, "ros1");
+    // The first one counts: the last may be that of a damaged index.
+    if (connections_.find(connection.id) != connections_.end()) return;
+    connections_[connection.id] =
+        list.add(connection.topic, connection.type, "ros1", file_->name());
   }
 
   void addMessage(std::uint32_t connection, std::int64_t stamp, std::uint64_t chunk,
@@ -125,10 +129,13 @@ class BagStorage : public Storage {
       return "its index does not have all chunks and connections";
     }
     if (message_count != messages.size() + unknown_) return "its index does not have all messages";
+    if (unknown_ > 0) return "its index has messages of connections that are not described";
     return "";
   }
 
   Connection connectionOf(const Fields& fields, const RecordHead& head) const {
+    constexpr std::uint32_t kMost = 64U << 20;  // the definition of the message is in it
+    if (head.size > kMost) file_->fail(head.data, "a connection is longer than any definition");
     const auto data = file_->read(head.data, head.size);
     return readConnection(fields, ByteReader(Bytes(data), file_->name(), head.data));
   }
@@ -150,17 +157,24 @@ class BagStorage : public Storage {
     const RecordHead head = bag::readHead(*file_, chunk);
     if (head.fields(*file_).op() != Op::chunk) file_->fail(chunk, "expected a chunk");
     std::uint64_t offset = head.end();
+    std::vector<std::uint32_t> offsets;
     while (offset < end) {
       const RecordHead record = bag::readHead(*file_, offset);
       const Fields fields = record.fields(*file_);
       if (fields.op() != Op::index) break;
-      addEntries(fields, record, chunk);
+      addEntries(fields, record, chunk, offsets);
       offset = record.end();
+    }
+    // A small file could name one large message a million times.
+    std::sort(offsets.begin(), offsets.end());
+    if (std::adjacent_find(offsets.begin(), offsets.end()) != offsets.end()) {
+      file_->fail(chunk, "the index of a chunk names a message twice");
     }
     return offset;
   }
 
-  void addEntries(const Fields& fields, const RecordHead& record, std::uint64_t chunk) {
+  void addEntries(const Fields& fields, const RecordHead& record, std::uint64_t chunk,
+                  std::vector<std::uint32_t>& offsets) {
     const std::uint32_t connection = fields.number<std::uint32_t>("conn");
     const std::uint32_t count = fields.number<std::uint32_t>("count");
     if (fields.number<std::uint32_t>("ver") != 1 ||
@@ -172,42 +186,78 @@ class BagStorage : public Storage {
     ByteReader in(Bytes(data), file_->name(), record.data);
     for (std::uint32_t i = 0; i < count; ++i) {
       const std::int64_t stamp = stampOf(in.number<std::uint64_t>("an entry of an index"));
-      addMessage(connection, stamp, chunk, in.number<std::uint32_t>("an entry of an index"));
+      offsets.push_back(in.number<std::uint32_t>("an entry of an index"));
+      addMessage(connection, stamp, chunk, offsets.back());
     }
   }
 
   // --- without an index --------------------------------------------------------------------------
 
   void lookThrough(const std::string& problem) {
-    list.topics.clear();
+    list.clear();
     messages.clear();
     connections_.clear();
     unknown_ = 0;
     remarks.push_back(file_->name() + " was looked through from its beginning: " + problem);
+    const std::string early_end = lookAtRecords();
+    damaged_.appendTo(remarks, "damaged: ");
+    if (homeless_ > 0) {
+      remarks.push_back(file_->name() + ": " + std::to_string(homeless_) +
+                        " messages outside of chunks were skipped");
+    }
+    if (!early_end.empty()) remarks.push_back("it ends early: " + early_end);
+  }
+
+  // Why not all of the file was read; empty: it was.
+  std::string lookAtRecords() {
     std::uint64_t offset = kVersionSize;
     while (offset < file_->size()) {
       RecordHead head;
       try {
         head = bag::readHead(*file_, offset);
       } catch (const FileError& error) {
-        remarks.push_back(std::string("it ends early: ") + error.what());
-        return;
+        return error.what();
       }
-      lookInto(head, offset);
+      try {
+        if (!lookInto(head, offset)) {
+          return nameOf(offset) + " was not closed, and what is compressed in it is lost";
+        }
+      } catch (const FileError& error) {
+        damaged_.add(error.what());
+      }
       offset = head.end();
     }
+    return "";
   }
 
-  void lookInto(const RecordHead& head, std::uint64_t offset) {
+  // False where nothing behind it can be read.
+  bool lookInto(const RecordHead& head, std::uint64_t offset) {
     const Fields fields = head.fields(*file_);
-    if (fields.op() == Op::connection) addConnection(connectionOf(fields, head));
-    if (fields.op() != Op::chunk) return;
-    try {
-      const auto data = readChunk(*file_, head);
-      lookIntoChunk(Bytes(data), offset);
-    } catch (const FileError& error) {
-      remarks.push_back(std::string("damaged: ") + error.what());
+    const Op op = fields.op();
+    if (op == Op::connection) addConnection(connectionOf(fields, head));
+    if (op == Op::message) takeOpen(fields, offset);
+    if (op == Op::index || op == Op::chunk) open_chunk_ = 0;
+    if (op != Op::chunk) return true;
+    // rosbag writes the size of a chunk when it closes it.
+    if (head.size == 0) {
+      if (isPacked(fields)) return false;
+      open_chunk_ = offset;
+      open_data_ = head.data;
+      return true;
     }
+    const auto data = readChunk(*file_, head);
+    lookIntoChunk(Bytes(data), offset);
+    return true;
+  }
+
+  // A message of a chunk that was not closed: it looks like one of the file.
+  void takeOpen(const Fields& fields, std::uint64_t offset) {
+    if (open_chunk_ == 0) {
+      ++homeless_;
+      return;
+    }
+    addMessage(fields.number<std::uint32_t>("conn"), fields.stamp("time"), open_chunk_,
+               offset - open_data_);
   }
 
   std::string nameOf(std::uint64_t chunk) const {
@@ -252,38 +302,54 @@ class BagStorage : public Storage {
     if (message.offset > block->size()) failOffset(message);
     const std::size_t offset = static_cast<std::size_t>(message.offset);
     ByteReader in(Bytes(block->data() + offset, block->size() - offset), name, offset);
-    for (;;) {
+    for (std::size_t hops = 0;; ++hops) {
       const Fields fields = fieldsIn(in);
       const Bytes data = in.block("the data of a message");
-      // Recorders that merged bags may point at the connection before a message.
-      if (fields.op() == Op::connection) continue;
+      if (isHop(fields, hops)) continue;
       checkMessage(fields, message);
-      return std::vector<std::uint8_t>(data.begin(), data.end());
+      return std::vector<std::uint8_t>(data.begin(),
+                                       data.begin() + std::min<std::size_t>(data.size(), most));
     }
   }
 
   // From a chunk that is not compressed, without the rest of it.
   std::vector<std::uint8_t> readInPlace(const RecordHead& chunk, const MessageRef& message,
                                         std::size_t most) const {
-    if (message.offset > chunk.size) failOffset(message);
+    // One that was not closed has no size: it goes to the end of the file.
+    const std::uint64_t end = chunk.size == 0 ? file_->size() : chunk.end();
+    if (message.offset > end - chunk.data) failOffset(message);
     std::uint64_t offset = chunk.data + message.offset;
-    for (;;) {
+    for (std::size_t hops = 0;; ++hops) {
       const RecordHead head = bag::readHead(*file_, offset);
-      if (head.end() > chunk.end()) file_->fail(offset, "a message is longer than its chunk");
+      if (head.end() > end) file_->fail(offset, "a message is longer than its chunk");
       const Fields fields = head.fields(*file_);
       offset = head.end();
-      if (fields.op() == Op::connection) continue;
+      if (isHop(fields, hops)) continue;
       checkMessage(fields, message);
       return file_->read(head.data, std::min<std::uint64_t>(head.size, most));
     }
   }
 
+  // Recorders that merged bags may point at a connection before a message.
+  bool isHop(const Fields& fields, std::size_t hops) const {
+    constexpr std::size_t kMost = 256;
+    return fields.op() == Op::connection && hops < std::min(connections_.size(), kMost);
+  }
+
   void checkMessage(const Fields& fields, const MessageRef& message) const {
-    if (fields.op() != Op::message || fields.stamp("time") != message.stamp) {
-      throw FileError(nameOf(message.block), "at byte " + std::to_string(message.offset) +
-                                                 ": expected a message with the stamp " +
-                                                 std::to_string(message.stamp) + " ns");
+    bool is_it = fields.op() == Op::message && fields.stamp("time") == message.stamp;
+    if (is_it) {
+      const auto connection = connections_.find(fields.number<std::uint32_t>("conn"));
+      is_it = connection != connections_.end() && connection->second == message.topic;
     }
+    if (is_it) return;
+    throw FileError(nameOf(message.block), "at byte " + std::to_string(message.offset) +
+                                               ": expected a message of " + topicOf(message) +
+                                               " with the stamp " + std::to_string(message.stamp) +
+                                               " ns");
+  }
+  std::string topicOf(const MessageRef& message) const {
+    return message.topic < list.topics.size() ? list.topics[message.topic].name : "no topic";
   }
 
   [[noreturn]] void failOffset(const MessageRef& message) const {
@@ -297,7 +363,10 @@ class BagStorage : public Storage {
   std::uint64_t first_record_ = 0;
   std::uint32_t connection_count_ = 0, chunk_count_ = 0;
   bool is_encrypted_ = false;
-  std::size_t unknown_ = 0;
+  std::size_t unknown_ = 0;                       // messages of connections that are not described
+  std::size_t homeless_ = 0;                      // messages outside of chunks
+  std::uint64_t open_chunk_ = 0, open_data_ = 0;  // the chunk that was not closed; 0: there is none
+  FewSentences damaged_;
 };
 
 }  // namespace

@@ -61,7 +61,14 @@ RecordHead readHead(const ByteSource& file, std::uint64_t offset) {
     return ByteReader(Bytes(raw, 4), file.name(), at).number<std::uint32_t>("a length");
   };
   head.header_offset = offset + 4;
-  head.header = file.read(head.header_offset, length(offset));
+  // Some fields: what is long, such as definitions of messages, is in the data.
+  constexpr std::uint32_t kMostHeader = 1U << 20;
+  const std::uint32_t header_size = length(offset);
+  if (header_size > kMostHeader) {
+    file.fail(offset, "the header of a record should have " + std::to_string(header_size) +
+                          " bytes, more than " + std::to_string(kMostHeader));
+  }
+  head.header = file.read(head.header_offset, header_size);
   const std::uint64_t at = head.header_offset + head.header.size();
   head.size = length(at);
   head.data = at + 4;

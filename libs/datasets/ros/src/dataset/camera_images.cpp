@@ -4,6 +4,7 @@
 #include <gslam/core/stamp.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "messages/camera.h"
 #include "messages/decode.h"
@@ -14,18 +15,46 @@ namespace ros {
 namespace {
 
 DecodedImage decodeImage(const Recording& recording, const CameraTopic& topic,
-                         const MessageRef& message) {
+                         const MessageRef& message, const reading::ImageShape* shape = nullptr) {
   const std::string name = nameOf(recording, message);
   const WireKind kind = wireKindOf(recording.topics()[message.topic]);
   const std::vector<std::uint8_t> bytes = recording.read(message);
   if (topic.is_compressed) {
     return decodeCompressed(decode<CompressedImageMessage>(Bytes(bytes), kind, name),
-                            topic.is_depth, name);
+                            topic.is_depth, name, shape);
   }
   return decodeRaw(decode<ImageMessage>(Bytes(bytes), kind, name), topic.is_depth, name);
 }
 
-void readCalibration(const Recording& recording, CameraImages& camera, reading::Remarks& remarks) {
+bool isSame(const CameraInfo& a, const CameraInfo& b) {
+  const auto numbers = [](const CameraInfo& info) {
+    return std::make_tuple(info.width, info.height, info.binning_x, info.binning_y, info.roi_x,
+                           info.roi_y, info.roi_width, info.roi_height);
+  };
+  return numbers(a) == numbers(b) && a.distortion_model == b.distortion_model && a.d == b.d &&
+         a.k == b.k && a.p == b.p;
+}
+
+// The first calibration counts; that it changes is said. Without stamps of headers, where little
+// shall be read, only the last one is looked at.
+void compareCalibrations(const Recording& recording, const CameraInfo& first,
+                         std::vector<MessageRef> messages, bool by_header,
+                         reading::Remarks& remarks) {
+  if (!by_header) messages.erase(messages.begin(), messages.end() - 1);
+  for (const MessageRef& message : messages) {
+    const std::string& topic = recording.topics()[message.topic].name;
+    try {
+      if (isSame(first, readMessage<CameraInfo>(recording, message))) continue;
+      remarks.skip("calibrations of " + topic + " that differ from the first one",
+                   "at " + secondsText(message.stamp) + " s");
+    } catch (const Error& error) {
+      remarks.skip("calibrations of " + topic + " that cannot be read", error.what());
+    }
+  }
+}
+
+void readCalibration(const Recording& recording, CameraImages& camera, bool by_header,
+                     reading::Remarks& remarks) {
   const std::string& topic = recording.topics()[camera.topic.images].name;
   if (camera.topic.info == kNoTopic) {
     remarks.say("camera '" + camera.sensor.name +
@@ -40,7 +69,14 @@ void readCalibration(const Recording& recording, CameraImages& camera, reading::
   }
   const auto info = readMessage<CameraInfo>(recording, messages[0]);
   const std::string name = nameOf(recording, messages[0]);
-  camera.sensor.camera = cameraOf(info, camera.topic.is_rectified, name);
+  const bool is_rectified = camera.topic.is_rectified;
+  camera.sensor.camera = cameraOf(info, is_rectified, name);
+  compareCalibrations(recording, info, messages, by_header, remarks);
+  if (is_rectified && camera.sensor.camera.isValid() && info.p[0] != 0) {
+    camera.offset = offsetOf(info);
+    remarks.say("the images of " + topic + " were taken as rectified, because of its name: P of " +
+                recording.topics()[camera.topic.info].name + " is the calibration");
+  }
   if (!camera.sensor.camera.isValid()) {
     remarks.say("camera '" + camera.sensor.name + "' has no calibration: K is zero in " +
                 recording.topics()[camera.topic.info].name);
@@ -102,7 +138,7 @@ CameraImages readCamera(const Recording& recording, const CameraTopic& topic, bo
     throw FileError(recording.path(),
                     "topic " + recording.topics()[topic.images].name + " has no image");
   }
-  readCalibration(recording, camera, remarks);
+  readCalibration(recording, camera, by_header, remarks);
   const MessageRef& first = camera.images[0].message;
   const DecodedImage image = decodeImage(recording, topic, first);
   checkSize(recording, camera, image.image);
@@ -117,7 +153,7 @@ CameraImages readCamera(const Recording& recording, const CameraTopic& topic, bo
 }
 
 Image loadImage(const Recording& recording, const CameraImages& camera, const MessageRef& message) {
-  const DecodedImage image = decodeImage(recording, camera.topic, message);
+  const DecodedImage image = decodeImage(recording, camera.topic, message, &camera.shape);
   const std::string name = nameOf(recording, message);
   reading::checkShape(image.image, camera.shape, name);
   if (image.kind != camera.sensor.kind) {

@@ -29,6 +29,7 @@ struct CameraImages {
   CameraTopic topic;
   CameraSensor sensor;
   std::string frame_id;
+  Vec3d offset{0, 0, 0};             ///< in the frame, by P of rectified images; see offsetOf()
   std::vector<StampedImage> images;  ///< by stamp, each stamp once
   reading::ImageShape shape;         ///< of the first one
 };

@@ -33,6 +33,16 @@ std::vector<ImageGroup> groupImages(const std::vector<std::vector<std::int64_t>>
   return groups;
 }
 
+bool isDense(const std::vector<std::int64_t>& stamps, std::int64_t tolerance) noexcept {
+  constexpr std::size_t kMost = 1000;
+  for (std::size_t i = kMost; i < stamps.size(); ++i) {
+    const auto first = static_cast<std::uint64_t>(stamps[i - kMost]);
+    const std::uint64_t apart = static_cast<std::uint64_t>(stamps[i]) - first;
+    if (apart <= static_cast<std::uint64_t>(tolerance)) return true;
+  }
+  return false;
+}
+
 bool isComplete(const ImageGroup& group) noexcept {
   return std::find(group.images.begin(), group.images.end(), kNoImage) == group.images.end();
 }

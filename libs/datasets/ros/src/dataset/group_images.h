@@ -29,6 +29,12 @@ struct ImageGroup {
 GSLAM_DATASETS_ROS_EXPORT std::vector<ImageGroup> groupImages(
     const std::vector<std::vector<std::int64_t>>& stamps, std::int64_t tolerance);
 
+/// Whether more than a thousand stamps lie within the tolerance of one: associate() takes time and
+/// memory for each such pair, and the tolerance cannot be what was meant.
+/// @param stamps  ascending
+GSLAM_DATASETS_ROS_EXPORT bool isDense(const std::vector<std::int64_t>& stamps,
+                                       std::int64_t tolerance) noexcept;
+
 /// Whether each camera has an image.
 GSLAM_DATASETS_ROS_EXPORT bool isComplete(const ImageGroup& group) noexcept;
 

@@ -1,11 +1,13 @@
 // Recordings of ROS as datasets.
 #include <gslam/base/error.h>
 #include <gslam/core/parameters.h>
+#include <gslam/core/stamp.h>
 #include <gslam/datasets/associate.h>
 #include <gslam/datasets_ros/ros_dataset.h>
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <memory>
 #include <utility>
 
@@ -117,9 +119,20 @@ class Builder {
 
   void readCameras() {
     images_->recording = recording_;
+    std::vector<CameraTopic> taken;
+    std::exception_ptr first;
     for (const CameraTopic& topic : topics_.cameras) {
-      images_->cameras.push_back(readCamera(*recording_, topic, options_.by_header, remarks()));
+      try {
+        images_->cameras.push_back(readCamera(*recording_, topic, options_.by_header, remarks()));
+        taken.push_back(topic);
+      } catch (const Error& error) {
+        if (topics_.are_cameras_named) throw;
+        if (!first) first = std::current_exception();
+        remarks().say("camera '" + topic.name + "' was left out: " + error.what());
+      }
     }
+    if (taken.empty() && first) std::rethrow_exception(first);
+    topics_.cameras = std::move(taken);
   }
 
   void readSensors() {
@@ -136,8 +149,11 @@ class Builder {
   }
 
   void readPoseTopics() {
-    if (topics_.has_truth) truth_ = readPoses(*recording_, topics_.truth, remarks());
-    if (topics_.has_odometry) odometry_ = readPoses(*recording_, topics_.odometry, remarks());
+    const bool by_header = options_.by_header;
+    if (topics_.has_truth) truth_ = readPoses(*recording_, topics_.truth, remarks(), by_header);
+    if (topics_.has_odometry) {
+      odometry_ = readPoses(*recording_, topics_.odometry, remarks(), by_header);
+    }
     if (!topics_.has_truth) remarks().say("there is no ground truth");
   }
 
@@ -150,7 +166,9 @@ class Builder {
       what = "the inertial unit of " + nameOf(topics_.imu);
     } else if (!images_->cameras.empty()) {
       body_ = images_->cameras[0].frame_id;
-      what = "camera '" + images_->cameras[0].sensor.name + "'";
+      const bool is_beside = isBesideFrame(0);
+      what = (is_beside ? "the frame of camera '" : "camera '") + images_->cameras[0].sensor.name +
+             "'";
     } else if (topics_.has_odometry || topics_.has_truth) {
       body_ = topics_.has_odometry ? odometry_.child : truth_.child;
       what = "what " + nameOf(topics_.has_odometry ? topics_.odometry.topic : topics_.truth.topic) +
@@ -171,6 +189,31 @@ class Builder {
     return SE3d();
   }
 
+  // Whether a rectified camera is not in its frame, but beside it: of a stereo pair the messages of
+  // both name the frame of the left one, and the fourth column of P says where the right one is
+  // (sensor_msgs/CameraInfo.msg).
+  bool isBesideFrame(std::size_t place) const {
+    const CameraImages& camera = images_->cameras[place];
+    if (camera.offset == Vec3d{0, 0, 0}) return false;
+    for (std::size_t i = 0; i < images_->cameras.size(); ++i) {
+      const CameraImages& other = images_->cameras[i];
+      if (i != place && other.frame_id == camera.frame_id) return true;
+    }
+    return false;
+  }
+
+  void placeBesideFrame(std::size_t place) {
+    CameraImages& camera = images_->cameras[place];
+    if (camera.offset == Vec3d{0, 0, 0}) return;
+    if (isBesideFrame(place)) {
+      SE3d& pose = camera.sensor.T_body_camera;
+      pose = pose * SE3d(SO3d(), camera.offset);
+      return;
+    }
+    remarks().say("the fourth column of P of camera '" + camera.sensor.name +
+                  "' was not applied: no other camera is in its frame '" + camera.frame_id + "'");
+  }
+
   void placeSensors() {
     SensorRig& rig = sequence_.info.sensors;
     for (std::size_t i = 0; i < images_->cameras.size(); ++i) {
@@ -180,6 +223,7 @@ class Builder {
         camera.sensor.T_body_camera =
             placeOf(camera.frame_id, "camera '" + camera.sensor.name + "'");
       }
+      placeBesideFrame(i);
       rig.cameras.push_back(camera.sensor);
     }
     if (rig.has_gnss) rig.gnss_antenna = placeOf(gnss_.frame_id, "the antenna").translation();
@@ -212,6 +256,7 @@ class Builder {
     for (const CameraImages& camera : images_->cameras) {
       stamps.emplace_back();
       for (const StampedImage& image : camera.images) stamps.back().push_back(image.stamp);
+      if (images_->cameras.size() > 1) checkDense(stamps.back(), camera.topic.images);
     }
     std::vector<ImageGroup> all = groupImages(stamps, options_.tolerance);
     std::size_t incomplete = 0;
@@ -229,6 +274,15 @@ class Builder {
     throw FileError(recording_->path(),
                     "no frame has an image of each camera within the tolerance; "
                     "a larger `tolerance`, or fewer `images`, may help");
+  }
+
+  void checkDense(const std::vector<std::int64_t>& stamps, std::size_t topic) const {
+    if (!isDense(stamps, options_.tolerance)) return;
+    throw FileError(recording_->path(),
+                    "topic " + nameOf(topic) +
+                        " has more than 1000 messages within the `tolerance` of "
+                        "one, which is " +
+                        secondsText(options_.tolerance) + " s: a smaller one is needed");
   }
 
   // Stamps of frames where there are no images.
@@ -250,7 +304,10 @@ class Builder {
     for (const std::int64_t stamp : stamps) {
       const bool is_first = sequence_.stamps.empty();
       if (!is_first && stamp <= sequence_.stamps.back()) continue;
-      if (!is_first && stamp - sequence_.stamps.back() < least) continue;
+      // They may be further apart than an int64 holds.
+      const auto before = is_first ? stamp : sequence_.stamps.back();
+      const std::uint64_t later = std::uint64_t(stamp) - std::uint64_t(before);
+      if (!is_first && later < std::uint64_t(least)) continue;
       sequence_.stamps.push_back(stamp);
     }
     remarks().say("there are no images: frames are at the stamps of " + of);
@@ -274,6 +331,7 @@ class Builder {
     const PoseWithCovariance<SE3d> to_body(T_child_body);
     std::vector<std::int64_t> stamps;
     for (const RecordedPose& one : odometry_.poses) stamps.push_back(one.stamp);
+    checkDense(stamps, topics_.odometry.topic);
     sequence_.priors.resize(sequence_.stamps.size());
     for (const StampPair& pair : associate(sequence_.stamps, stamps, options_.tolerance)) {
       const RecordedPose& one = odometry_.poses[pair.b];
@@ -285,12 +343,16 @@ class Builder {
   }
 
   void sayUnused() {
+    constexpr std::size_t kMost = 50;
+    std::size_t count = 0;
     for (std::size_t i = 0; i < recording_->topics().size(); ++i) {
-      if (isUsed(topics_, i)) continue;
+      if (isUsed(topics_, i) || ++count > kMost) continue;
       const RecordedTopic& topic = recording_->topics()[i];
       remarks().say("topic " + topic.name + " of type " + topic.type + " was not read (" +
                     std::to_string(topic.count) + " messages)");
     }
+    if (count <= kMost) return;
+    remarks().say(std::to_string(count - kMost) + " more topics were not read");
   }
 
   Options options_;

@@ -3,6 +3,7 @@
 #include <gslam/core/stamp.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -52,6 +53,11 @@ bool isFinite(const Vec3d& v) noexcept {
   return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
 }
 
+bool isFinite(const std::array<double, 9>& values) noexcept {
+  return std::all_of(values.begin(), values.end(),
+                     [](double value) { return std::isfinite(value); });
+}
+
 double radians(double degrees) noexcept {
   return degrees * (3.14159265358979323846 / 180);
 }
@@ -71,7 +77,8 @@ GnssSample gnssSampleOf(const NavSatFix& message, std::int64_t stamp) {
   const double unknown = std::numeric_limits<double>::quiet_NaN();
   sample.velocity = {unknown, unknown, unknown};
   const bool is_known = message.covariance_type != 0;
-  if (is_known) {
+  // Zero stands for unknown, as GnssSample has it.
+  if (is_known && isFinite(message.covariance)) {
     std::copy(message.covariance.begin(), message.covariance.end(), sample.covariance.data());
   }
   return sample;
@@ -94,11 +101,15 @@ GnssList readGnss(const Recording& recording, std::size_t topic, bool by_header,
   GnssList list;
   list.samples = readSamples<NavSatFix, GnssSample>(
       recording, topic, by_header, remarks, list.frame_id,
-      [](const NavSatFix& message, std::int64_t stamp, GnssSample& sample) {
+      [&](const NavSatFix& message, std::int64_t stamp, GnssSample& sample) {
         sample = gnssSampleOf(message, stamp);
         const bool is_place = std::fabs(message.latitude) <= 90 &&
                               std::fabs(message.longitude) <= 360 &&
                               std::isfinite(message.altitude);
+        if (message.covariance_type != 0 && !isFinite(message.covariance)) {
+          remarks.skip("covariances of " + recording.topics()[topic].name + " that are not finite",
+                       "at " + secondsText(stamp) + " s");
+        }
         return sample.fix == GnssFix::none || is_place;
       });
   return list;

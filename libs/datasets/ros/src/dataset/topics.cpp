@@ -3,6 +3,7 @@
 #include <gslam/base/error.h>
 
 #include <algorithm>
+#include <set>
 
 #include "messages/messages.h"
 
@@ -145,7 +146,14 @@ class Chooser {
       if (!isImages(topic)) failType(topic, "sensor_msgs/Image or CompressedImage", "images");
       topics.push_back(topic);
     }
+    result_.are_cameras_named = !names.empty();
     if (names.empty()) topics = allImages();
+    constexpr std::size_t kMost = 256;
+    if (topics.size() > kMost) {
+      throw FileError(recording_.path(), "has " + std::to_string(topics.size()) +
+                                             " topics of images, more than " +
+                                             std::to_string(kMost) + ": name some in `images`");
+    }
     for (const std::size_t topic : topics) addCamera(topic);
     pairInfos();
     makeNamesDiffer();
@@ -157,15 +165,11 @@ class Chooser {
 
   // Of a camera that is there raw and compressed, raw.
   std::vector<std::size_t> allImages() const {
-    std::vector<std::size_t> raw = ofType(kImage);
-    const std::vector<std::size_t> compressed = ofType(kCompressed);
-    std::vector<std::size_t> result = raw;
-    for (const std::size_t topic : compressed) {
-      const std::string base = baseOf(nameOf(topic));
-      const bool is_there = std::any_of(result.begin(), result.end(), [&](std::size_t other) {
-        return baseOf(nameOf(other)) == base;
-      });
-      if (!is_there) result.push_back(topic);
+    std::vector<std::size_t> result = ofType(kImage);
+    std::set<std::string> bases;
+    for (const std::size_t topic : result) bases.insert(baseOf(nameOf(topic)));
+    for (const std::size_t topic : ofType(kCompressed)) {
+      if (bases.insert(baseOf(nameOf(topic))).second) result.push_back(topic);
     }
     std::sort(result.begin(), result.end(),
               [&](std::size_t a, std::size_t b) { return nameOf(a) < nameOf(b); });
@@ -176,9 +180,8 @@ class Chooser {
     CameraTopic camera;
     camera.images = topic;
     camera.is_compressed = typeOf(topic) == kCompressed;
-    const std::string name = lower(nameOf(topic));
-    camera.is_depth = contains(name, "depth");
-    camera.is_rectified = contains(name, "rect");
+    camera.is_depth = saysDepth(nameOf(topic));
+    camera.is_rectified = saysRectified(nameOf(topic));
     camera.name = cameraNameOf(nameOf(topic));
     result_.cameras.push_back(camera);
   }
@@ -298,6 +301,16 @@ bool isUsed(const ChosenTopics& topics, std::size_t topic) {
          (topics.has_truth && topics.truth.topic == topic) ||
          (topics.has_odometry && topics.odometry.topic == topic) ||
          std::find(fixed.begin(), fixed.end(), topic) != fixed.end();
+}
+
+bool saysRectified(const std::string& topic) {
+  const std::string last = lower(lastOf(baseOf(topic)));
+  return hasWord(last, "rect") || hasWord(last, "rectified");
+}
+
+bool saysDepth(const std::string& topic) {
+  const std::string name = lower(topic);
+  return hasWord(name, "depth") || hasWord(name, "depthmap") || hasWord(name, "compresseddepth");
 }
 
 std::string cameraNameOf(const std::string& topic) {

@@ -23,13 +23,14 @@ struct CameraTopic {
   std::size_t info = kNoTopic;
   std::string name;  ///< of the camera: "cam0" of "/cam0/image_raw"
   bool is_compressed = false;
-  bool is_depth = false;      ///< by its name
-  bool is_rectified = false;  ///< by its name
+  bool is_depth = false;      ///< by a word of its name
+  bool is_rectified = false;  ///< by a word of its name's last part
 };
 
 /// What was chosen.
 struct ChosenTopics {
   std::vector<CameraTopic> cameras;
+  bool are_cameras_named = false;  ///< by parameters, not chosen by their types
   std::size_t imu = kNoTopic;
   std::size_t gnss = kNoTopic;
   bool has_truth = false, has_odometry = false;
@@ -43,6 +44,12 @@ ChosenTopics chooseTopics(const Recording& recording, const Svar& parameters);
 
 /// Whether a topic is used for anything.
 bool isUsed(const ChosenTopics& topics, std::size_t topic);
+
+/// @{
+/// What names say: "/cam0/image_rect_color" has rectified images, "/camera/depth/image" depth.
+GSLAM_DATASETS_ROS_EXPORT bool saysRectified(const std::string& topic);
+GSLAM_DATASETS_ROS_EXPORT bool saysDepth(const std::string& topic);
+/// @}
 
 /// "cam0" of "/cam0/image_raw", "camera_rgb" of "/camera/rgb/image_color/compressed".
 GSLAM_DATASETS_ROS_EXPORT std::string cameraNameOf(const std::string& topic);

@@ -183,6 +183,14 @@ bool parse(Opcode opcode, ByteReader& content, Record& record) {
   return false;
 }
 
+std::uint64_t parseAttachmentHead(ByteReader& content) {
+  u64(content, "an attachment");
+  u64(content, "an attachment");
+  content.text("the name of an attachment");
+  content.text("the media type of an attachment");
+  return u64(content, "an attachment");
+}
+
 Chunk parseChunkHead(ByteReader& content) {
   Chunk chunk;
   chunk.message_start_time = u64(content, "a chunk");

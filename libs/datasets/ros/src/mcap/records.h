@@ -125,6 +125,9 @@ using Record =
 /// @throws FileError when it ends early
 bool parse(Opcode opcode, ByteReader& content, Record& record);
 
+/// The fields of an attachment before its data; gives the size of these.
+std::uint64_t parseAttachmentHead(ByteReader& content);
+
 /// The fields of a chunk before its records, which need not be there.
 Chunk parseChunkHead(ByteReader& content);
 

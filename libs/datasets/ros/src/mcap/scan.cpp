@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "../bytes/decompress.h"
 
@@ -28,9 +29,9 @@ RecordHead headOf(ByteReader& in) {
   return head;
 }
 
-std::vector<std::uint8_t> unpacked(const Chunk& chunk, Bytes packed) {
-  if (chunk.compression == "lz4") return unpackLz4(packed, chunk.uncompressed_size);
-  if (chunk.compression == "zstd") return unpackZstd(packed, chunk.uncompressed_size);
+std::vector<std::uint8_t> unpacked(const Chunk& chunk, std::vector<std::uint8_t> packed) {
+  if (chunk.compression == "lz4") return unpackLz4(Bytes(packed), chunk.uncompressed_size);
+  if (chunk.compression == "zstd") return unpackZstd(Bytes(packed), chunk.uncompressed_size);
   if (!chunk.compression.empty()) {
     throw Error("is compressed by '" + chunk.compression.substr(0, 40) +
                 "', expected lz4, zstd or nothing");
@@ -39,7 +40,7 @@ std::vector<std::uint8_t> unpacked(const Chunk& chunk, Bytes packed) {
     throw Error("has " + std::to_string(packed.size()) + " bytes, but should have " +
                 std::to_string(chunk.uncompressed_size));
   }
-  return std::vector<std::uint8_t>(packed.begin(), packed.end());
+  return packed;
 }
 
 }  // namespace
@@ -96,10 +97,14 @@ Chunk readChunkHead(const ByteSource& file, const RecordHead& head) {
 
 std::vector<std::uint8_t> readChunk(const ByteSource& file, const RecordHead& head) {
   const Chunk chunk = readChunkHead(file, head);
-  const auto packed = file.read(head.content + chunk.records_at, chunk.records_size);
-  std::vector<std::uint8_t> records;
+  if (chunk.records_size > kMostInMemory) {
+    file.fail(head.content - kHeadSize, "the chunk has " + std::to_string(chunk.records_size) +
+                                            " bytes, more than " + std::to_string(kMostInMemory));
+  }
+  std::vector<std::uint8_t> records =
+      file.read(head.content + chunk.records_at, chunk.records_size);
   try {
-    records = unpacked(chunk, Bytes(packed));
+    records = unpacked(chunk, std::move(records));
   } catch (const Error& error) {
     file.fail(head.content - kHeadSize, std::string("the chunk ") + error.what());
   }
@@ -128,7 +133,8 @@ namespace {
 // Goes through a file, and keeps what there is to say of it.
 class Scanner {
  public:
-  Scanner(const ByteSource& file, const Visitor& visit) : file_(file), visit_(visit) {}
+  Scanner(const ByteSource& file, const Visitor& visit, std::uint64_t most)
+      : file_(file), visit_(visit), most_(most) {}
 
   ScanResult run() {
     checkMagic(file_);
@@ -142,7 +148,11 @@ class Scanner {
         result_.early_end = error.what();
         return result_;
       }
-      readRecord(head, offset);
+      try {
+        readRecord(head, offset);
+      } catch (const FileError& error) {
+        result_.damaged.add(error.what());
+      }
       is_over = Opcode(head.opcode) == Opcode::footer;
       offset = head.end();
     }
@@ -154,7 +164,13 @@ class Scanner {
   void readRecord(const RecordHead& head, std::uint64_t offset) {
     if (Opcode(head.opcode) == Opcode::chunk) return readChunkAt(head, offset);
     if (!isKnown(head.opcode)) return;
-    const auto content = file_.read(head.content, head.size);
+    if (Opcode(head.opcode) == Opcode::attachment && head.size > most_) {
+      return checkLongAttachment(head, offset);
+    }
+    const bool is_message = Opcode(head.opcode) == Opcode::message;
+    if (!is_message && head.size > kMostInMemory) file_.fail(offset, "a record is too long");
+    const auto content =
+        file_.read(head.content, is_message ? std::min(head.size, most_) : head.size);
     ByteReader fields(Bytes(content), file_.name(), head.content);
     Record record;
     if (!parse(Opcode(head.opcode), fields, record)) return;
@@ -168,32 +184,48 @@ class Scanner {
   }
 
   void readChunkAt(const RecordHead& head, std::uint64_t offset) {
-    std::vector<std::uint8_t> records;
-    try {
-      records = readChunk(file_, head);
-    } catch (const FileError& error) {
-      result_.damaged.push_back(error.what());
-      return;
-    }
+    const std::vector<std::uint8_t> records = readChunk(file_, head);
     const std::string name = file_.name() + ", chunk at byte " + std::to_string(offset);
     scanChunk(Bytes(records), name, offset, visit_);
   }
 
   void checkData(const DataEnd& end, std::uint64_t offset) {
-    if (end.data_section_crc == 0) return;  // unknown
+    // Only the first can be the end: each takes all of the file before it.
+    if (is_data_checked_ || end.data_section_crc == 0) return;  // 0: unknown
+    is_data_checked_ = true;
     const std::uint32_t crc = crcOf(file_, 0, offset);
     if (crc == end.data_section_crc) return;
-    result_.damaged.push_back(file_.name() + ": the data up to byte " + std::to_string(offset) +
-                              " have the CRC " + hex(crc) + ", expected " +
-                              hex(end.data_section_crc));
+    result_.damaged.add(file_.name() + ": the data up to byte " + std::to_string(offset) +
+                        " have the CRC " + hex(crc) + ", expected " + hex(end.data_section_crc));
   }
 
   void checkAttachment(const Attachment& one, const std::vector<std::uint8_t>& content,
                        std::uint64_t offset) {
-    const std::uint32_t crc = crc32Of(Bytes(content.data(), one.size_before_crc));
-    if (one.crc == 0 || one.crc == crc) return;
-    result_.damaged.push_back(file_.name() + ": the attachment at byte " + std::to_string(offset) +
-                              " has the CRC " + hex(crc) + ", expected " + hex(one.crc));
+    compareAttachment(crc32Of(Bytes(content.data(), one.size_before_crc)), one.crc, offset);
+  }
+
+  // Without all of it in memory.
+  void checkLongAttachment(const RecordHead& head, std::uint64_t offset) {
+    constexpr std::uint64_t kMostHead = 1U << 20;  // names
+    const auto raw = file_.read(head.content, std::min(head.size, kMostHead));
+    ByteReader in(Bytes(raw), file_.name(), head.content);
+    const std::uint64_t size = parseAttachmentHead(in);
+    constexpr std::uint64_t kCrc = 4;
+    if (head.size < in.at() + kCrc || size > head.size - in.at() - kCrc) {
+      in.fail("the data of an attachment should have " + std::to_string(size) +
+              " bytes, but the record ends before");
+    }
+    const std::uint64_t end = in.offset() + size;
+    const auto stored = file_.read(end, kCrc);
+    ByteReader crc(Bytes(stored), file_.name(), end);
+    compareAttachment(crcOf(file_, head.content, end),
+                      crc.number<std::uint32_t>("the CRC of an attachment"), offset);
+  }
+
+  void compareAttachment(std::uint32_t crc, std::uint32_t expected, std::uint64_t offset) {
+    if (expected == 0 || expected == crc) return;
+    result_.damaged.add(file_.name() + ": the attachment at byte " + std::to_string(offset) +
+                        " has the CRC " + hex(crc) + ", expected " + hex(expected));
   }
 
   void checkEnd(std::uint64_t offset) {
@@ -207,13 +239,15 @@ class Scanner {
 
   const ByteSource& file_;
   const Visitor& visit_;
+  std::uint64_t most_;
+  bool is_data_checked_ = false;
   ScanResult result_;
 };
 
 }  // namespace
 
-ScanResult scan(const ByteSource& file, const Visitor& visit) {
-  return Scanner(file, visit).run();
+ScanResult scan(const ByteSource& file, const Visitor& visit, std::uint64_t most) {
+  return Scanner(file, visit, most).run();
 }
 
 }  // namespace mcap

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "../bytes/byte_source.h"
+#include "../storage/few_sentences.h"
 #include "records.h"
 
 namespace gslam {
@@ -27,6 +28,9 @@ struct RecordHead {
 
 /// @throws FileError when the file ends before the record does
 RecordHead readHead(const ByteSource& file, std::uint64_t offset);
+
+/// The longest record, and the longest chunk, that is read as a whole.
+constexpr std::uint64_t kMostInMemory = std::uint64_t(1) << 30;
 
 /// The beginning of a chunk. @param head  of a chunk
 Chunk readChunkHead(const ByteSource& file, const RecordHead& head);
@@ -48,15 +52,17 @@ void scanChunk(Bytes records, const std::string& name, std::uint64_t chunk, cons
 
 /// What scan() has to say.
 struct ScanResult {
-  std::string early_end;             // why not all was read; empty: it was
-  std::vector<std::string> damaged;  // chunks that cannot be unpacked, and CRCs that are wrong
+  std::string early_end;  // why not all was read; empty: it was
+  FewSentences damaged;   // records and chunks that cannot be read, and CRCs that are wrong
 };
 
 /// Calls back for each record from the first to the last, those of chunks in place of the chunk.
-/// Records of unknown kinds are passed over. Goes on behind damaged chunks, and stops where a
+/// Records of unknown kinds are passed over. Goes on behind what is damaged, and stops where a
 /// record is longer than the file.
-/// @throws FileError when a record breaks the rules
-GSLAM_DATASETS_ROS_EXPORT ScanResult scan(const ByteSource& file, const Visitor& visit);
+/// @param most  bytes of messages outside of chunks that are read; attachments that have more are
+///   checked, but not called back for
+GSLAM_DATASETS_ROS_EXPORT ScanResult scan(const ByteSource& file, const Visitor& visit,
+                                          std::uint64_t most = kMostInMemory);
 
 /// @throws FileError when the file does not begin as MCAP does
 void checkMagic(const ByteSource& file);

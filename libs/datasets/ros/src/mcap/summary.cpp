@@ -65,6 +65,12 @@ void readRecords(const ByteSource& file, std::uint64_t begin, std::uint64_t foot
                  const Footer& footer, Summary& summary) {
   // The CRC is of all up to itself, the beginning of the footer included.
   constexpr std::uint64_t kFooterBeforeCrc = kHeadSize + 16;
+  constexpr std::uint64_t kMost = 256U << 20;  // that of hours has some MB
+  if (footer_offset - begin > kMost) {
+    summary.problem = "its summary should begin at byte " + std::to_string(begin) +
+                      ", which is too far from the end of the file";
+    return;
+  }
   const auto raw = file.read(begin, footer_offset - begin + kFooterBeforeCrc);
   if (footer.summary_crc != 0 && crc32Of(Bytes(raw)) != footer.summary_crc) {
     summary.problem = "its summary is damaged (the CRC is wrong)";

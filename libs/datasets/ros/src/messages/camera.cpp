@@ -68,14 +68,18 @@ Camera fullCamera(const CameraInfo& info, const std::string& name) {
 
 // What is recorded of the full image: a part of it, with pixels put together.
 Camera recordedCamera(Camera camera, const CameraInfo& info) {
-  const bool has_region = info.roi_width > 0 && info.roi_height > 0;
+  const bool has_region = info.roi_width > 0 || info.roi_height > 0;
   if (has_region) {
     camera =
         camera.cropped(int(info.roi_x), int(info.roi_y), int(info.roi_width), int(info.roi_height));
   }
   const int x = std::max(1, int(info.binning_x)), y = std::max(1, int(info.binning_y));
   if (x > 1 || y > 1) {
-    camera = camera.resized(std::max(1, camera.width() / x), std::max(1, camera.height() / y));
+    // Pixels at the right and the bottom that fill no binned one are left out.
+    const int width = std::max(1, camera.width() / x), height = std::max(1, camera.height() / y);
+    camera = camera.cropped(0, 0, std::min(camera.width(), x * width),
+                            std::min(camera.height(), y * height));
+    camera = camera.resized(width, height);
   }
   return camera;
 }
@@ -94,11 +98,23 @@ Camera cameraOf(const CameraInfo& info, bool is_rectified, const std::string& na
                            ", larger than any image");
     }
   }
+  if ((info.roi_width == 0) != (info.roi_height == 0)) {
+    throw ParseError(name, 0, 0,
+                     "the region of the calibration has " + std::to_string(info.roi_width) + " x " +
+                         std::to_string(info.roi_height) + " pixels");
+  }
   const bool has_p = is_rectified && info.p[0] != 0;
   const Camera full =
       has_p ? makeCamera("pinhole", info, {info.p[0], info.p[5], info.p[2], info.p[6]}, {}, name)
             : fullCamera(info, name);
   return recordedCamera(full, info);
+}
+
+Vec3d offsetOf(const CameraInfo& info) noexcept {
+  const double x = info.p[0] != 0 ? -info.p[3] / info.p[0] : 0;
+  const double y = info.p[5] != 0 ? -info.p[7] / info.p[5] : 0;
+  if (!std::isfinite(x) || !std::isfinite(y)) return {0, 0, 0};
+  return {x, y, 0};
 }
 
 }  // namespace ros

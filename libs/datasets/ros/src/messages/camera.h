@@ -22,6 +22,11 @@ namespace ros {
 GSLAM_DATASETS_ROS_EXPORT Camera cameraOf(const CameraInfo& info, bool is_rectified,
                                           const std::string& name);
 
+/// Where a rectified camera is in the frame that its messages name, by the fourth column of P: for
+/// the right one of a stereo pair, which has the frame of the left one, the baseline along x.
+/// @return zero where P does not say it
+GSLAM_DATASETS_ROS_EXPORT Vec3d offsetOf(const CameraInfo& info) noexcept;
+
 }  // namespace ros
 }  // namespace v1
 }  // namespace gslam

@@ -2,8 +2,10 @@
 
 #include <gslam/base/error.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 #include <vector>
 
@@ -154,7 +156,23 @@ Image depthOfInverse(const Image& stored, const DepthHead& head) {
   return depth;
 }
 
-DecodedImage decodeCompressedDepth(const CompressedImageMessage& message, const std::string& name) {
+// OpenCV reads many formats, and some of its readers were written without strangers in mind.
+Image decodePicture(Bytes bytes, const std::string& format, const std::string& name,
+                    const reading::ImageShape* shape) {
+  const std::vector<std::uint8_t> data(bytes.begin(), bytes.end());
+  const auto begins = [&](std::initializer_list<std::uint8_t> with) {
+    return data.size() >= with.size() && std::equal(with.begin(), with.end(), data.begin());
+  };
+  const bool is_png = begins({0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'});
+  if (!is_png && !begins({0xFF, 0xD8, 0xFF})) {
+    throw ParseError(name, 0, 0,
+                     "the image of format '" + format.substr(0, 60) + "' is neither JPEG nor PNG");
+  }
+  return reading::decodeImage(data, name, shape);
+}
+
+DecodedImage decodeCompressedDepth(const CompressedImageMessage& message, const std::string& name,
+                                   const reading::ImageShape* shape) {
   constexpr std::size_t kHead = 12;
   if (contains(message.format, "rvl")) {
     throw ParseError(name, 0, 0, "the format '" + message.format + "' (RVL) cannot be read");
@@ -167,8 +185,13 @@ DecodedImage decodeCompressedDepth(const CompressedImageMessage& message, const 
   DepthHead head;
   describe(wire, head);
   DecodedImage result;
-  result.image = reading::decodeImage(
-      std::vector<std::uint8_t>(message.data.begin() + kHead, message.data.end()), name);
+  reading::ImageShape stored;  // of floats as well 16 bits
+  if (shape != nullptr) {
+    stored = *shape;
+    stored.type = PixelType::u16;
+  }
+  result.image = decodePicture(Bytes(message.data.data() + kHead, message.data.size() - kHead),
+                               message.format, name, shape == nullptr ? nullptr : &stored);
   if (result.image.type() != PixelType::u16 || result.image.channels() != 1) {
     throw ParseError(
         name, 0, 0, "compressed depth is " + result.image.text() + ", expected one channel of u16");
@@ -181,11 +204,12 @@ DecodedImage decodeCompressedDepth(const CompressedImageMessage& message, const 
 }  // namespace
 
 DecodedImage decodeCompressed(const CompressedImageMessage& message, bool is_depth,
-                              const std::string& name) {
-  if (contains(message.format, "compressedDepth")) return decodeCompressedDepth(message, name);
+                              const std::string& name, const reading::ImageShape* shape) {
+  if (contains(message.format, "compressedDepth")) {
+    return decodeCompressedDepth(message, name, shape);
+  }
   DecodedImage result;
-  result.image = reading::decodeImage(
-      std::vector<std::uint8_t>(message.data.begin(), message.data.end()), name);
+  result.image = decodePicture(message.data, message.format, name, shape);
   const bool is_stored_depth = message.format.compare(0, 5, "16UC1") == 0;
   ImageKind kind = reading::kindOf(result.image, name);
   if (contains(message.format, "bayer")) {

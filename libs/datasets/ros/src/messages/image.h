@@ -9,6 +9,7 @@
 #include <string>
 
 #include "messages.h"
+#include "reading/decode.h"
 
 namespace gslam {
 inline namespace v1 {
@@ -31,11 +32,15 @@ struct DecodedImage {
 GSLAM_DATASETS_ROS_EXPORT DecodedImage decodeRaw(const ImageMessage& message, bool is_depth,
                                                  const std::string& name);
 
-/// The same of sensor_msgs/CompressedImage: JPEG, PNG and what else OpenCV reads; compressedDepth
-/// of 16 bits, and of floats, which are stored as inverse depth. (RVL is not read.)
+/// The same of sensor_msgs/CompressedImage: JPEG and PNG; compressedDepth of 16 bits, and of
+/// floats, which are stored as inverse depth. (RVL, and TIFF, which floats may be stored in, are
+/// not read.)
+/// @param shape  unless null: what the image must be like. One of another size is refused before it
+///   is decoded.
 /// @throws ParseError, FileError when they are not what they say
 GSLAM_DATASETS_ROS_EXPORT DecodedImage decodeCompressed(const CompressedImageMessage& message,
-                                                        bool is_depth, const std::string& name);
+                                                        bool is_depth, const std::string& name,
+                                                        const reading::ImageShape* shape = nullptr);
 
 }  // namespace ros
 }  // namespace v1

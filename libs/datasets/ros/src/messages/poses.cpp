@@ -86,11 +86,13 @@ SE3d toSe3(const Pose& pose) {
 // Collects the poses of a topic, and says what it does not take.
 class Collector {
  public:
-  Collector(const Recording& recording, const PoseTopic& topic, reading::Remarks& remarks)
+  Collector(const Recording& recording, const PoseTopic& topic, reading::Remarks& remarks,
+            bool by_header)
       : recording_(recording),
         topic_(topic),
         name_(recording.topics()[topic.topic].name),
-        remarks_(remarks) {}
+        remarks_(remarks),
+        by_header_(by_header) {}
 
   PoseList run() {
     const PoseType type = poseTypeOf(recording_, topic_.topic);
@@ -139,8 +141,8 @@ class Collector {
   void add(const Header& header, const std::string& child, const Pose& pose, const MessageRef& ref,
            const std::array<double, 36>* covariance = nullptr) {
     RecordedPose added;
-    added.stamp = header.stamp != 0 ? header.stamp : ref.stamp;
-    if (header.stamp == 0) {
+    added.stamp = by_header_ && header.stamp != 0 ? header.stamp : ref.stamp;
+    if (by_header_ && header.stamp == 0) {
       remarks_.say("messages of " + name_ + " have no stamp: when they were received was taken");
     }
     if (!isFinite(pose) || !(normOf(pose.orientation) > 1e-6)) {
@@ -197,6 +199,7 @@ class Collector {
   const PoseTopic& topic_;
   std::string name_;
   reading::Remarks& remarks_;
+  bool by_header_;
   PoseList list_;
 };
 
@@ -229,8 +232,9 @@ PoseTopic findPoseTopic(const Recording& recording, const std::string& name) {
   return result;
 }
 
-PoseList readPoses(const Recording& recording, const PoseTopic& topic, reading::Remarks& remarks) {
-  return Collector(recording, topic, remarks).run();
+PoseList readPoses(const Recording& recording, const PoseTopic& topic, reading::Remarks& remarks,
+                   bool by_header) {
+  return Collector(recording, topic, remarks, by_header).run();
 }
 
 Trajectory trajectoryOf(const PoseList& list) {

@@ -45,7 +45,9 @@ struct PoseList {
 };
 
 /// Reads them all. What is skipped is said: poses that are not finite, and stamps that were there.
-PoseList readPoses(const Recording& recording, const PoseTopic& topic, reading::Remarks& remarks);
+/// @param by_header  whether stamps are those of the messages, not when they were received
+PoseList readPoses(const Recording& recording, const PoseTopic& topic, reading::Remarks& remarks,
+                   bool by_header = true);
 
 /// Of those a trajectory.
 Trajectory trajectoryOf(const PoseList& list);

@@ -22,7 +22,9 @@ inline bool hasEnding(const std::string& path, const std::string& ending) {
 
 /// By its ending, in any case.
 inline RecordingKind fileKindOf(const std::string& path) {
-  if (hasEnding(path, ".bag")) return RecordingKind::bag;
+  // rosbag calls it so until it is closed.
+  const bool is_bag = hasEnding(path, ".bag") || hasEnding(path, ".bag.active");
+  if (is_bag) return RecordingKind::bag;
   if (hasEnding(path, ".db3")) return RecordingKind::db3;
   if (hasEnding(path, ".mcap")) return RecordingKind::mcap;
   const bool is_packed = hasEnding(path, ".db3.zstd") || hasEnding(path, ".mcap.zstd");

@@ -56,6 +56,13 @@ std::string lower(std::string text) {
   return text;
 }
 
+// Its messages would come twice.
+void checkTwins(std::vector<std::string> files, const std::string& metadata) {
+  std::sort(files.begin(), files.end());
+  const auto twin = std::adjacent_find(files.begin(), files.end());
+  if (twin != files.end()) throw FileError(metadata, "names the file " + *twin + " twice");
+}
+
 void checkCompression(const Svar& root, const std::string& metadata, RecordingFolder& result) {
   const std::string mode = lower(root.get<std::string>("compression_mode", ""));
   const std::string format = root.get<std::string>("compression_format", "");
@@ -102,6 +109,7 @@ RecordingFolder readFolder(const std::string& folder) {
     throw FileError(metadata, std::string("is no metadata of ROS 2: ") + error.what());
   }
   if (result.files.empty()) throw FileError(metadata, "names no file in relative_file_paths");
+  checkTwins(result.files, metadata);
   return result;
 }
 

@@ -2,8 +2,6 @@
 
 #include <gslam/base/error.h>
 
-#include <algorithm>
-
 #include "file_kind.h"
 
 namespace gslam {
@@ -11,19 +9,26 @@ inline namespace v1 {
 namespace ros {
 
 std::uint32_t TopicList::add(const std::string& name, const std::string& type,
-                             const std::string& encoding) {
-  const auto found = std::find_if(topics.begin(), topics.end(), [&](const RecordedTopic& topic) {
-    return topic.name == name && topic.type == type && topic.encoding == encoding;
-  });
-  const std::size_t place = std::size_t(found - topics.begin());
-  if (found == topics.end()) {
-    RecordedTopic topic;
-    topic.name = name;
-    topic.type = type;
-    topic.encoding = encoding;
-    topics.push_back(topic);
+                             const std::string& encoding, const std::string& file) {
+  constexpr std::size_t kMost = 1U << 16;
+  const auto found = places_.find({name, type, encoding});
+  if (found != places_.end()) return found->second;
+  if (topics.size() == kMost) {
+    throw FileError(file, "has more than " + std::to_string(kMost) + " topics");
   }
-  return static_cast<std::uint32_t>(place);
+  const std::uint32_t place = static_cast<std::uint32_t>(topics.size());
+  places_.emplace(std::array<std::string, 3>{name, type, encoding}, place);
+  RecordedTopic topic;
+  topic.name = name;
+  topic.type = type;
+  topic.encoding = encoding;
+  topics.push_back(topic);
+  return place;
+}
+
+void TopicList::clear() {
+  topics.clear();
+  places_.clear();
 }
 
 void Storage::sayHuge(std::size_t skipped, const std::string& file) {

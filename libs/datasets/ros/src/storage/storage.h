@@ -4,9 +4,11 @@
 
 #include <gslam/datasets_ros/recording.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,8 +23,15 @@ namespace ros {
 class TopicList {
  public:
   /// Its number; adds it where it is new.
-  std::uint32_t add(const std::string& name, const std::string& type, const std::string& encoding);
+  /// @param file  for errors
+  /// @throws FileError when there are more than any robot has
+  std::uint32_t add(const std::string& name, const std::string& type, const std::string& encoding,
+                    const std::string& file);
+  void clear();
   std::vector<RecordedTopic> topics;
+
+ private:
+  std::map<std::array<std::string, 3>, std::uint32_t> places_;
 };
 
 /// One file of a recording that was opened: its index is complete, the messages are not loaded.

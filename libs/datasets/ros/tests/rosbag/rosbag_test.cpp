@@ -103,6 +103,29 @@ TEST(rosbag, a_bag_that_was_not_closed_keeps_its_whole_chunks) {
   }
 }
 
+// What rosbag record leaves, whose chunks have 768 KB: all is in one that was not closed.
+TEST(rosbag, a_bag_that_was_not_closed_keeps_messages_of_its_open_chunk) {
+  for (const std::string compression : {"none", "bz2", "lz4"}) {
+    BagShape shape;
+    shape.compression = compression;
+    shape.chunk_size = 768 * 1024;
+    shape.is_closed = false;
+    const std::string path = folderOfTests() + "killed.bag";
+    std::vector<Recorded> all = someMessages(200);  // 270 KB
+    rosbag_files::write(path, all, shape);
+    const auto recording = Recording::open(path);
+    std::vector<Recorded> found = contentOf(*recording);
+    if (compression == "none") {
+      EXPECT_GT(found.size(), 190U);  // some KB were still in memory
+    } else {
+      EXPECT_TRUE(found.empty());
+      EXPECT_TRUE(hasAny(recording->remarks(), "was not closed, and what is compressed in it"));
+    }
+    all.resize(found.size());
+    expectSame(found, all);
+  }
+}
+
 TEST(rosbag, messages_that_ros_itself_serialized) {
   const std::string path = folderOfTests() + "true.bag";
   rosbag_files::writeTrueMessages(path);

@@ -38,8 +38,13 @@ inline namespace v1 {
 /// In a recording without images, frames have none: there is one at each stamp of the odometry,
 /// else the ground truth, the satellite positions, or the inertial unit. That is said.
 ///
-/// Opening reads the head of each image message, for its stamp: a compressed recording is unpacked
-/// once.
+/// A topic of images that cannot be read is left out, which is said, unless `images` names it. P
+/// counts where the last part of a topic's name has the word `rect` or `rectified`. Its fourth
+/// column places the right camera of a rectified pair, whose messages name the frame of the left
+/// one. Of calibrations the first counts, of a static transform the last; that they change is said.
+///
+/// Opening reads the head of each image message, for its stamp, and all of the other topics that
+/// are used, one topic after another: a compressed recording is unpacked about once for each.
 GSLAM_DATASETS_ROS_EXPORT DatasetFactory rosFactory();
 
 }  // namespace v1
