@@ -116,7 +116,9 @@ class Plugins(Folder):
 
     def test_datasets(self):
         self.check(gslam("datasets"), out="carousel")
-        self.assertEqual(json.loads(gslam("datasets", "--json").stdout)[0]["name"], "carousel")
+        names = [one["name"] for one in json.loads(gslam("datasets", "--json").stdout)]
+        for name in ["carousel", "kitti", "tum", "euroc", "cvmono", "folder", "synthetic"]:
+            self.assertIn(name, names)
 
 
 class Info(Folder):
@@ -131,6 +133,23 @@ class Info(Folder):
         self.assertEqual(facts["frames"], 201)
         # Chords of a circle, so a little less.
         self.assertAlmostEqual(facts["ground_truth"]["length_m"], 2 * 3.14159265 * 3, delta=0.01)
+
+    def test_checks_what_it_reads(self):
+        self.check(gslam("info", "--check", "carousel"), out="nothing is wrong with it")
+        check = json.loads(self.check(gslam("info", "--check", "carousel", "--json")).stdout)["check"]
+        self.assertEqual((check["frames"], check["errors"]), (201, []))
+
+    def test_says_what_cannot_be_read(self):
+        world = "synthetic://room?sensors=mono&frames=4&width=160&height=120"
+        self.check(gslam("play", world, "--save", self.folder / "seq", "--as", "kitti"))
+        sequence = self.folder / "seq" / "sequences" / "00"
+        image = sequence / "image_0" / "000002.png"
+        image.write_bytes(image.read_bytes()[:500])
+        result = self.check(gslam("info", "--check", sequence), 1, out="format       kitti")
+        self.assertIn("000002.png): cannot be read: ends early", result.stdout)
+        result = self.check(gslam("info", "--format", "cvmono", sequence / "image_0"))
+        self.assertIn("format       cvmono", result.stdout)
+        self.check(gslam("info", "--format", "kiti", sequence), 1, err="kitti")
 
     def test_unknown_datasets(self):
         self.check(gslam("info", "carusel"), 1, err="carousel")
@@ -247,6 +266,8 @@ class Save(Folder):
             self.assertIn("saved: 5 frames", result.stdout)
             self.assertGreaterEqual(len(list(out.rglob("*.png"))), 5)
             self.check(gslam("play", self.world, "--save", out, "--as", layout), 1, err=str(out))
+            result = self.check(gslam("info", "--check", out), out=f"format       {layout}")
+            self.assertIn("checked 5 frames", result.stdout)
 
     def test_contact_sheet(self):
         sheet = self.folder / "sheet.png"
