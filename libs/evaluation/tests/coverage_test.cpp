@@ -214,7 +214,10 @@ TEST(score, no_other_scale_is_better) {
                 }));
     EXPECT_EQ(fixed.levels[k].fraction, best.levels[k].fraction);
   }
-  for (double scale = 0.5; scale<2; scale *= scale> 0.97 && scale < 1.03 ? 1.0002 : 1.02) {
+  std::vector<double> scales;  // coarse ones, and fine ones about 1
+  for (int i = -30; i <= 30; ++i) scales.push_back(std::exp(0.02 * i));
+  for (int i = -150; i <= 150; ++i) scales.push_back(std::exp(0.0002 * i));
+  for (const double scale : scales) {
     const Score fixed = scoreOf(reference, made::changed(estimate, [&](const SE3d& pose) {
                                   return SE3d(pose.rotation(), scale * pose.translation());
                                 }));

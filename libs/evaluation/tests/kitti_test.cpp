@@ -83,7 +83,8 @@ std::vector<Row> devkit(const std::vector<Matrix>& truth, const std::vector<Matr
   }
   std::vector<Row> rows;
   for (std::size_t first = 0; first < truth.size(); first += 10) {
-    for (double length = 100; length <= 800; length += 100) {
+    for (int hundreds = 1; hundreds <= 8; ++hundreds) {
+      const double length = 100 * hundreds;
       std::size_t last = first;
       while (last < truth.size() && dist[last] <= dist[first] + length) ++last;
       if (last == truth.size()) continue;
@@ -130,7 +131,8 @@ void expectDevkit(const gslam::KittiErrors& ours, const std::vector<Row>& rows,
   for (const Row& row : rows) {
     all.add(row);
     lengths[row.length].add(row);
-    for (double speed = 2; speed < 25; speed += 2) {
+    for (int even = 2; even < 25; even += 2) {
+      const double speed = even;
       if (std::fabs(row.speed - speed) < 2.0) speeds[speed].add(row);
     }
   }
