@@ -57,7 +57,7 @@ class Room {
       mover.phase = build_.random.uniform(0, 1);
       scene.movers.push_back(mover);
       const int place = static_cast<int>(scene.movers.size()) - 1;
-      const Surface& surface = build_.any(things_[i % 3U]);
+      const Surface& surface = build_.any(things_[static_cast<unsigned>(i) % 3U]);
       if (i % 2 == 0) {
         build_.sphere({{0, 0, 0}}, build_.random.uniform(0.16F, 0.28F), surface, place);
       } else {
@@ -163,7 +163,7 @@ class Room {
       const float x = build_.random.uniform(-0.3F, 0.3F), y = 0.32F * static_cast<float>(i - 2);
       const Vec3f base = {{c * x - s * y, s * x + c * y, 0.76F}};
       const float size_of_it = build_.random.uniform(0.12F, 0.2F);
-      const Surface& surface = build_.any(things_[i % 3U]);
+      const Surface& surface = build_.any(things_[static_cast<unsigned>(i) % 3U]);
       if (i % 3 == 0) {
         build_.box(base, {{1.5F * size_of_it, size_of_it, 1.6F * size_of_it}},
                    build_.random.uniform(0, 3), surface, surface, kExtent);

@@ -1,6 +1,6 @@
 #include "group_images.h"
 
-#include <gslam/datasets/associate.h>
+#include <gslam/core/associate.h>
 
 #include <algorithm>
 

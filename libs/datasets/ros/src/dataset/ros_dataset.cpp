@@ -1,8 +1,8 @@
 // Recordings of ROS as datasets.
 #include <gslam/base/error.h>
+#include <gslam/core/associate.h>
 #include <gslam/core/parameters.h>
 #include <gslam/core/stamp.h>
-#include <gslam/datasets/associate.h>
 #include <gslam/datasets_ros/ros_dataset.h>
 
 #include <algorithm>
