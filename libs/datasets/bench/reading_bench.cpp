@@ -101,14 +101,18 @@ class LongSequence {
       calibration << camera << ": 300 0 160 0 0 300 120 0 0 0 1 0\n";
       fs::create_directory(folder_ + (camera[1] == '0' ? "/image_0" : "/image_1"));
     }
-    const std::string first = folder_ + "/first.png";
+    for (const std::string camera : {"/image_0/", "/image_1/"}) fill(folder_ + camera);
+    for (std::size_t i = 0; i < kLongSequence; ++i) times << double(i) * 0.1 << '\n';
+  }
+
+  // A file may have 65000 names in some file systems.
+  static void fill(const std::string& folder) {
+    const std::string first = folder + "000000.png";
     if (!cv::imwrite(first, cv::Mat(240, 320, CV_8UC1, cv::Scalar(100)))) std::abort();
-    for (std::size_t i = 0; i < kLongSequence; ++i) {
+    for (std::size_t i = 1; i < kLongSequence; ++i) {
       char name[32];
       std::snprintf(name, sizeof(name), "%06zu.png", i);
-      fs::create_hard_link(first, folder_ + "/image_0/" + name);
-      fs::create_hard_link(first, folder_ + "/image_1/" + name);
-      times << double(i) * 0.1 << '\n';
+      fs::create_hard_link(first, folder + name);
     }
   }
 

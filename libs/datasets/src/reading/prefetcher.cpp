@@ -12,7 +12,9 @@ Prefetcher::Prefetcher(std::size_t count, int threads, int ahead,
     : count_(count),
       threads_(static_cast<std::size_t>(std::max(threads, 0))),
       load_(std::move(load)),
-      slots_(static_cast<std::size_t>(std::max(ahead, 1))) {}
+      slots_(static_cast<std::size_t>(std::max(ahead, 1))) {
+  window_ = firstWindow();
+}
 
 Prefetcher::~Prefetcher() {
   {
@@ -44,7 +46,7 @@ void Prefetcher::seek(std::size_t position) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (position == position_) return;
     position_ = asked_ = position;
-    window_ = 1;
+    window_ = firstWindow();
     ++generation_;
     std::fill(slots_.begin(), slots_.end(), Slot());
   }

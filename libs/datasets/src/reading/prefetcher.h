@@ -4,6 +4,7 @@
 
 #include <gslam/core/frame.h>
 
+#include <algorithm>
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
@@ -17,9 +18,9 @@ inline namespace v1 {
 namespace reading {
 
 /// The threads begin at the first next(). At most `ahead` frames are loaded, or being loaded, and
-/// not taken; after a seek() it is one at first, and twice as many with each frame that is taken,
-/// so that jumping about loads little in vain (what threads load when seek() is called comes on
-/// top of it). One thread at a time may use it.
+/// not taken; after a seek() it is one a thread at first, and twice as many with each frame that is
+/// taken, so that jumping about loads little in vain (what threads load when seek() is called comes
+/// on top of it). One thread at a time may use it.
 class Prefetcher {
  public:
   using Images = std::vector<CameraImage>;
@@ -49,6 +50,9 @@ class Prefetcher {
 
   void start();
   void work();
+  std::size_t firstWindow() const {
+    return std::min(std::max<std::size_t>(threads_, 1), slots_.size());
+  }
   Slot& slotOf(std::size_t frame) { return slots_[frame % slots_.size()]; }
 
   const std::size_t count_;
@@ -59,7 +63,7 @@ class Prefetcher {
   std::condition_variable wanted_, loaded_;
   std::size_t position_ = 0;    // written by the one who uses it
   std::size_t asked_ = 0;       // the next frame that a thread takes up
-  std::size_t window_ = 1;      // how many frames from position_ on may be taken up
+  std::size_t window_;          // how many frames from position_ on may be taken up
   std::size_t generation_ = 0;  // grows with each seek(): what was asked before is not wanted
   bool stopping_ = false;
   std::vector<Slot> slots_;
