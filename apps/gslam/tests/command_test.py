@@ -156,9 +156,9 @@ class Info(Folder):
         self.check(gslam("info", self.folder), 1, err=str(self.folder))
 
     def test_wrong_parameters(self):
-        self.check(gslam("info", "carousel", "--dataset-param.radios", 3), 1, err="radius")
+        self.check(gslam("info", "carousel", "--dataset-param.radios", 3), 2, err="radius")
         self.check(gslam("info", "carousel", "--dataset-param.radius", -3), 1, err="-3")
-        self.check(gslam("info", "carousel", "--dataset-param.radius", "wide"), 1,
+        self.check(gslam("info", "carousel", "--dataset-param.radius", "wide"), 2,
                    err="expected double")
         self.check(gslam("info", "carousel:/nowhere"), 1, err="the name alone")
 
