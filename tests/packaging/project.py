@@ -61,6 +61,11 @@ class House:
             names += [n for n in self.closure(dependency) if n not in names]
         return names + [name]
 
+    def quick(self):
+        """Those that a test can compile: headers, and one of the others."""
+        return [name for name, component in self.components.items()
+                if component["kind"] == "headers" or name == "svar_formats"]
+
     def example(self, name):
         return pathlib.Path(self.components[name]["folder"]) / "examples" / "quickstart.cpp"
 
@@ -105,12 +110,12 @@ def configure(source, build, *options):
                    *options)
 
 
-def build_and_run(folder, prefix=None, *options):
+def build_and_run(folder, prefix=None, *options, target="all"):
     """Configures, builds and runs a consumer; its program must print something."""
     options = list(options) + ([f"-DCMAKE_PREFIX_PATH={prefix}"] if prefix else [])
     result = configure(folder, folder / "build", *options)
     expect(result.returncode == 0, result.stdout)
-    run("cmake", "--build", folder / "build")
+    run("cmake", "--build", folder / "build", "--target", target)
     printed = run(folder / "build" / "app")
     expect(printed.strip(), "the program printed nothing")
     return result.stdout + printed
