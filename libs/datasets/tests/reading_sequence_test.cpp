@@ -349,7 +349,8 @@ TEST(reading_images, a_damaged_one_is_an_error_and_the_next_one_comes) {
   const auto dataset =
       deliver(withFiles(folder, {"0.png", "1.png", "2.png", "3.png", "4.png", "5.png"}), {2, 4});
   EXPECT_NE(dataset->next(), nullptr);
-  for (const char* text : {"1.png: ends early", "2.png: is empty", "3.png: is 17 x 12, but the camera"}) {
+  for (const char* text :
+       {"1.png: ends early", "2.png: is empty", "3.png: is 17 x 12, but the camera"}) {
     const std::string message = messageOf([&] { (void)dataset->next(); });
     EXPECT_NE(message.find(text), std::string::npos) << message;
   }
