@@ -80,9 +80,9 @@ void expectFrames(gslam::Dataset& dataset, std::size_t begin, std::size_t end) {
   }
 }
 
-class reading_threads : public testing::TestWithParam<int> {};
+class ReadingThreads : public testing::TestWithParam<int> {};
 
-TEST_P(reading_threads, frames_come_in_order_whatever_happens) {
+TEST_P(ReadingThreads, frames_come_in_order_whatever_happens) {
   const auto loads = std::make_shared<Loads>();
   const auto dataset = deliver(numbered(200, loads), {GetParam(), 7});
   expectFrames(*dataset, 0, 200);
@@ -97,7 +97,7 @@ TEST_P(reading_threads, frames_come_in_order_whatever_happens) {
   EXPECT_EQ(loads->threads.count(std::this_thread::get_id()), GetParam() == 0 ? 1U : 0U);
 }
 
-TEST_P(reading_threads, it_may_go_at_any_time) {
+TEST_P(ReadingThreads, it_may_go_at_any_time) {
   for (std::size_t taken = 0; taken < 20; ++taken) {
     const auto dataset = deliver(numbered(200, std::make_shared<Loads>()), {GetParam(), 5});
     expectFrames(*dataset, 0, std::min<std::size_t>(taken, 12));
@@ -105,7 +105,7 @@ TEST_P(reading_threads, it_may_go_at_any_time) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(counts, reading_threads, testing::Values(0, 1, 2, 5));
+INSTANTIATE_TEST_SUITE_P(counts, ReadingThreads, testing::Values(0, 1, 2, 5));
 
 TEST(reading_sequence, loads_no_more_ahead_than_it_may) {
   const auto loads = std::make_shared<Loads>();

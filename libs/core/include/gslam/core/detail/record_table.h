@@ -64,7 +64,7 @@ class RecordChunk {
 };
 
 template <class Record>
-constexpr std::uint16_t RecordChunk<Record>::kEmpty;
+constexpr std::uint16_t RecordChunk<Record>::kEmpty;  // NOLINT(readability-redundant-declaration)
 
 template <class Record>
 class RecordTable {
