@@ -5,7 +5,6 @@
 #include <gslam/core/memory_dataset.h>
 #include <gslam/datasets/export_dataset.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -19,6 +18,8 @@
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "new_folder.h"
 
 namespace export_case {
 
@@ -37,23 +38,7 @@ constexpr std::int64_t kFirstStamp = 1403715273262142976;
 constexpr std::int64_t kPeriod = 50000001;  // no whole microsecond
 constexpr std::int64_t kImuPeriod = 5000003;
 
-/// A new folder that goes with this.
-class TempFolder {
- public:
-  TempFolder() {
-    std::string name = (fs::temp_directory_path() / "gslam_export_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) std::abort();
-    path_ = name;
-  }
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-  ~TempFolder() { fs::remove_all(path_); }
-  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
+using TempFolder = NewFolder;
 
 inline Image randomImage(std::mt19937& random, PixelType type, int channels) {
   Image image(kWidth, kHeight, type, channels);

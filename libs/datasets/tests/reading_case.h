@@ -7,7 +7,6 @@
 #include <gslam/core/parameters.h>
 #include <gslam/core/registry.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 #include <zip.h>
 
 #include <algorithm>
@@ -20,24 +19,15 @@
 #include <string>
 #include <vector>
 
+#include "new_folder.h"
+
 namespace reading_case {
 
 namespace fs = std::filesystem;
 
-/// A new folder that goes with this.
-class TempFolder {
+/// A new folder that goes with this, and what is written into it.
+class TempFolder : public NewFolder {
  public:
-  TempFolder() {
-    std::string name = (fs::temp_directory_path() / "gslam_reading_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) std::abort();
-    path_ = name;
-  }
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-  ~TempFolder() { fs::remove_all(path_); }
-  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
-  const std::string& path() const { return path_; }
-
   /// Writes a file, and makes the folders it is in.
   void write(const std::string& name, const std::string& text) const {
     fs::create_directories(fs::path(*this / name).parent_path());
@@ -53,9 +43,6 @@ class TempFolder {
     if (!cv::imwrite(*this / name, pixels)) std::abort();
     return pixels;
   }
-
- private:
-  std::string path_;
 };
 
 inline std::string textOf(const std::string& path) {
