@@ -117,7 +117,7 @@ class Failing : public gslam::MemoryDataset {
  public:
   Failing(const Case& c, bool all) : MemoryDataset(c.info(), c.makeFrames(c.info())), all_(all) {}
   std::shared_ptr<const Frame> next() override {
-    const std::shared_ptr<const Frame> frame = MemoryDataset::next();
+    std::shared_ptr<const Frame> frame = MemoryDataset::next();
     if (frame != nullptr && (all_ || frame->id == 1)) {
       throw gslam::FileError("1.png", "is truncated");
     }
