@@ -260,7 +260,7 @@ std::string printXml(const Svar& value) {
 }
 
 void saveXml(const std::string& path, const Svar& value) {
-  detail::replaceFile(path, printXml(value) + "\n");
+  detail::writeTextFile(path, printXml(value) + "\n");
 }
 
 }  // namespace v1

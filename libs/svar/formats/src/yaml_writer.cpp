@@ -286,7 +286,7 @@ std::string printYaml(const Svar& value) {
 }
 
 void saveYaml(const std::string& path, const Svar& value) {
-  detail::replaceFile(path, printYaml(value) + "\n");
+  detail::writeTextFile(path, printYaml(value) + "\n");
 }
 
 }  // namespace v1

@@ -23,7 +23,7 @@ class TestFile {
   TestFile& operator=(const TestFile&) = delete;
 
   const std::string& path() const { return path_; }
-  void write(const std::string& text) const { gslam::detail::replaceFile(path_, text); }
+  void write(const std::string& text) const { gslam::detail::writeTextFile(path_, text); }
   std::string read() const { return gslam::detail::readFile(path_); }
 
  private:

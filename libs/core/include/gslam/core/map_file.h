@@ -1,8 +1,8 @@
 #ifndef GSLAM_CORE_MAP_FILE_H
 #define GSLAM_CORE_MAP_FILE_H
 
+#include <gslam/base/detail/new_file.h>
 #include <gslam/base/span.h>
-#include <gslam/core/detail/binary_file.h>
 #include <gslam/core/detail/map_reader.h>
 #include <gslam/core/detail/map_writer.h>
 #include <gslam/core/map.h>

@@ -1,6 +1,7 @@
 #ifndef GSLAM_CORE_PLY_H
 #define GSLAM_CORE_PLY_H
 
+#include <gslam/base/detail/new_file.h>
 #include <gslam/base/span.h>
 #include <gslam/core/detail/binary_file.h>
 #include <gslam/core/detail/ply_reader.h>

@@ -2,8 +2,8 @@
 #ifndef GSLAM_CORE_DETAIL_BINARY_WRITER_H
 #define GSLAM_CORE_DETAIL_BINARY_WRITER_H
 
+#include <gslam/base/detail/little_endian.h>
 #include <gslam/base/error.h>
-#include <gslam/core/detail/little_endian.h>
 
 #include <algorithm>
 #include <cstddef>

@@ -2,11 +2,11 @@
 #ifndef GSLAM_CORE_DETAIL_MAP_READER_H
 #define GSLAM_CORE_DETAIL_MAP_READER_H
 
+#include <gslam/base/detail/checksum.h>
 #include <gslam/base/error.h>
 #include <gslam/core/detail/binary_file.h>
 #include <gslam/core/detail/binary_parts.h>
 #include <gslam/core/detail/binary_reader.h>
-#include <gslam/core/detail/checksum.h>
 #include <gslam/core/detail/map_writer.h>
 #include <gslam/core/map.h>
 

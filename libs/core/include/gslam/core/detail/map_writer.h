@@ -2,10 +2,10 @@
 #ifndef GSLAM_CORE_DETAIL_MAP_WRITER_H
 #define GSLAM_CORE_DETAIL_MAP_WRITER_H
 
+#include <gslam/base/detail/checksum.h>
+#include <gslam/base/detail/little_endian.h>
 #include <gslam/core/detail/binary_parts.h>
 #include <gslam/core/detail/binary_writer.h>
-#include <gslam/core/detail/checksum.h>
-#include <gslam/core/detail/little_endian.h>
 #include <gslam/core/map.h>
 
 #include <cstddef>

@@ -2,9 +2,9 @@
 #ifndef GSLAM_CORE_DETAIL_PLY_READER_H
 #define GSLAM_CORE_DETAIL_PLY_READER_H
 
+#include <gslam/base/detail/little_endian.h>
 #include <gslam/base/error.h>
 #include <gslam/base/span.h>
-#include <gslam/core/detail/little_endian.h>
 #include <gslam/core/map_types.h>
 #include <gslam/svar/detail/parse_number.h>
 

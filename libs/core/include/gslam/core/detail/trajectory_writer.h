@@ -2,8 +2,8 @@
 #ifndef GSLAM_CORE_DETAIL_TRAJECTORY_WRITER_H
 #define GSLAM_CORE_DETAIL_TRAJECTORY_WRITER_H
 
+#include <gslam/base/detail/new_file.h>
 #include <gslam/base/error.h>
-#include <gslam/core/detail/binary_file.h>
 #include <gslam/core/detail/stamp_text.h>
 #include <gslam/core/trajectory_file.h>
 #include <gslam/svar/detail/print_number.h>

@@ -1,18 +1,22 @@
 // What a file that is to be written is, and where it really lies.
-#ifndef GSLAM_CORE_DETAIL_FILE_TARGET_H
-#define GSLAM_CORE_DETAIL_FILE_TARGET_H
-
-#include <sys/stat.h>
-#include <unistd.h>
+#ifndef GSLAM_BASE_DETAIL_FILE_TARGET_H
+#define GSLAM_BASE_DETAIL_FILE_TARGET_H
 
 #include <cstddef>
 #include <cstdio>
 #include <string>
 #include <vector>
 
+#if defined(__unix__) || defined(__APPLE__)
+#include <sys/stat.h>
+#include <unistd.h>
+#endif
+
 namespace gslam {
 inline namespace v1 {
 namespace detail {
+
+#if defined(__unix__) || defined(__APPLE__)
 
 // Whether something is there that is no ordinary file: a pipe, a device, a folder.
 inline bool isSpecialFile(const std::string& path) {
@@ -50,8 +54,20 @@ inline void copyMode(const std::string& path, std::FILE* file) {
   if (::stat(path.c_str(), &facts) == 0) (void)!::fchmod(::fileno(file), facts.st_mode & 07777);
 }
 
+#else  // without links, devices among files, and rights
+
+inline bool isSpecialFile(const std::string&) {
+  return false;
+}
+inline std::string withoutLinks(const std::string& path) {
+  return path;
+}
+inline void copyMode(const std::string&, std::FILE*) {}
+
+#endif
+
 }  // namespace detail
 }  // namespace v1
 }  // namespace gslam
 
-#endif  // GSLAM_CORE_DETAIL_FILE_TARGET_H
+#endif  // GSLAM_BASE_DETAIL_FILE_TARGET_H

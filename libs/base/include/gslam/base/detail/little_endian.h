@@ -1,6 +1,6 @@
 // Numbers as bytes, the least first, whatever the machine.
-#ifndef GSLAM_CORE_DETAIL_LITTLE_ENDIAN_H
-#define GSLAM_CORE_DETAIL_LITTLE_ENDIAN_H
+#ifndef GSLAM_BASE_DETAIL_LITTLE_ENDIAN_H
+#define GSLAM_BASE_DETAIL_LITTLE_ENDIAN_H
 
 #include <cstddef>
 #include <cstdint>
@@ -69,4 +69,4 @@ struct BitsOf<8> {
 }  // namespace v1
 }  // namespace gslam
 
-#endif  // GSLAM_CORE_DETAIL_LITTLE_ENDIAN_H
+#endif  // GSLAM_BASE_DETAIL_LITTLE_ENDIAN_H

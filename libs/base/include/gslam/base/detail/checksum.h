@@ -1,8 +1,8 @@
 // XXH64: 64 bits that tell damaged data from whole.
-#ifndef GSLAM_CORE_DETAIL_CHECKSUM_H
-#define GSLAM_CORE_DETAIL_CHECKSUM_H
+#ifndef GSLAM_BASE_DETAIL_CHECKSUM_H
+#define GSLAM_BASE_DETAIL_CHECKSUM_H
 
-#include <gslam/core/detail/little_endian.h>
+#include <gslam/base/detail/little_endian.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -69,4 +69,4 @@ class Xxh64 {
 }  // namespace v1
 }  // namespace gslam
 
-#endif  // GSLAM_CORE_DETAIL_CHECKSUM_H
+#endif  // GSLAM_BASE_DETAIL_CHECKSUM_H
