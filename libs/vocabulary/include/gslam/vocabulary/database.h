@@ -98,8 +98,8 @@ class BowDatabase {
   /// @param bow       its words; values are 0 or more
   /// @param features  its features by nodes, which features() gives back (the direct index)
   /// @returns its id: nextId() as it was
-  /// @throws ArgumentError when words or nodes do not ascend, lists do not fit each other, a value
-  ///         is below 0 or not finite, or there are more than 16 million words
+  /// @throws ArgumentError when words or nodes do not ascend, lists do not fit each other, or a
+  ///         value is below 0 or not finite
   std::uint64_t add(const BowVector& bow, const FeatureVector& features = FeatureVector()) {
     detail::checkArgument("bow", bow);
     detail::checkArgument("features", features);

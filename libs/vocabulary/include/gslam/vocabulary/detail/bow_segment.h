@@ -117,18 +117,28 @@ class BowSegment {
     const std::uint32_t* const words = query.bow->words.data();
     const std::size_t size = query.bow->size();
     std::uint32_t places[kAhead];
+    double values[kAhead];
     for (std::size_t begin = 0; begin < size; begin += kAhead) {
       const std::size_t count = std::min(kAhead, size - begin);
       if (begin == 0) prefetchSlots(table, words, count);
       for (std::size_t i = 0; i < count; ++i) {
-        places[i] = table.find(words[begin + i]);
-        prefetch(memory_.at(places[i]));
+        places[i] = table.find(words[begin + i], values[i]);
+        if (isList(places[i])) prefetch(memory_.at(places[i]));
       }
       prefetchSlots(table, words + begin + count, std::min(kAhead, size - begin - count));
       for (std::size_t i = 0; i < count; ++i) {
+        if (isList(places[i])) prefetchMore(places[i]);
+      }
+      for (std::size_t i = 0; i < count; ++i) {
+        if (places[i] == 0) continue;
         const double own = Term::kHasOwn ? query.own[begin + i] : 0;
-        if (places[i] != 0)
-          addWord<Term>(places[i], query.bow->values[begin + i], own, limit, sums);
+        const double value = query.bow->values[begin + i];
+        if (isList(places[i])) {
+          addList<Term>(places[i], value, own, limit, sums);
+        } else {
+          const std::uint32_t entry = places[i] & ~WordSlot::kOneEntry;
+          if (entry < limit) addOne<Term>(value, own, values[i], sums[entry]);
+        }
       }
     }
   }
@@ -142,38 +152,59 @@ class BowSegment {
     for (std::size_t i = 0; i < count; ++i) prefetch(table.firstSlot(words[i]));
   }
 
+  static bool isList(std::uint32_t place) noexcept {
+    return place != 0 && (place & WordSlot::kOneEntry) == 0;
+  }
+  void prefetchMore(std::uint32_t place) const noexcept {
+    const PostingBlock* const block = memory_.at(place);
+    prefetch(block->entries());
+    if (block->older != 0) prefetch(memory_.at(block->older));
+  }
+
   void addPosting(std::uint32_t word, double value, WordTable& table) {
-    const std::uint32_t place = table.find(word);
-    if (place != 0 && sizeOf(place) < memory_.at(place)->capacity) {
-      write(place, sizeOf(place), value);
-      return;
+    double first_value = 0;
+    const std::uint32_t place = table.find(word, first_value);
+    if (place == 0) {
+      table.add(word, count_, value);
+    } else if (!isList(place)) {
+      const std::uint32_t list = memory_.make(0);
+      write(list, 0, place & ~WordSlot::kOneEntry, first_value);
+      write(list, 1, count_, value);
+      table.set(word, list);
+    } else if (sizeOf(place) < memory_.at(place)->capacity) {
+      write(place, sizeOf(place), count_, value);
+    } else {
+      const std::uint32_t next = memory_.make(place);
+      write(next, 0, count_, value);
+      table.set(word, next);
     }
-    const std::uint32_t next = memory_.make(place);
-    write(next, 0, value);
-    table.set(word, next);
   }
   std::uint16_t sizeOf(std::uint32_t place) const noexcept {
     return memory_.at(place)->size.load(std::memory_order_relaxed);
   }
-  void write(std::uint32_t place, std::uint16_t size, double value) noexcept {
+  void write(std::uint32_t place, std::uint16_t size, std::uint32_t entry, double value) noexcept {
     PostingBlock* const block = memory_.at(place);
     block->values()[size] = value;
-    block->entries()[size] = static_cast<std::uint16_t>(count_);
+    block->entries()[size] = static_cast<std::uint16_t>(entry);
     block->size.store(static_cast<std::uint16_t>(size + 1), std::memory_order_release);
   }
 
   template <class Term>
-  void addWord(std::uint32_t place, double value, double own, std::uint32_t limit,
+  static void addOne(double value, double own, double entry_value, BowSum& sum) noexcept {
+    sum.sum += Term::common(value, own, entry_value);
+    ++sum.common_words;
+  }
+  template <class Term>
+  void addList(std::uint32_t place, double value, double own, std::uint32_t limit,
                BowSum* sums) const noexcept {
     for (; place != 0; place = memory_.at(place)->older) {
       const PostingBlock* const block = memory_.at(place);
+      if (block->older != 0) prefetchMore(block->older);
       const std::size_t size = block->size.load(std::memory_order_acquire);
       const double* const values = block->values();
       const std::uint16_t* const entries = block->entries();
       for (std::size_t i = 0; i < size && entries[i] < limit; ++i) {
-        BowSum& sum = sums[entries[i]];
-        sum.sum += Term::common(value, own, values[i]);
-        ++sum.common_words;
+        addOne<Term>(value, own, values[i], sums[entries[i]]);
       }
     }
   }

@@ -129,10 +129,8 @@ class BowStore {
 
   void insert(std::uint64_t id, std::shared_ptr<const BowEntry> entry) {
     const std::size_t words = entry->bow.size();
-    if (id == std::numeric_limits<std::uint64_t>::max() ||
-        words > PostingMemory::mostFirstBlocks()) {
-      throw ArgumentError("bow", "has " + std::to_string(words) + " words and would get the id " +
-                                     std::to_string(id) + ": a database has no room for it");
+    if (id == std::numeric_limits<std::uint64_t>::max()) {
+      throw ArgumentError("database", "has no ids left");
     }
     if (view_->empty() || !view_->back().segment->hasRoomFor(words)) {
       openSegment(id);

@@ -32,33 +32,31 @@ struct PostingBlock {
 };
 static_assert(sizeof(PostingBlock) == 8, "values follow it");
 
-// Places are counted in units of half a cache line. Most words are in few images: the first block
-// of a word is one unit, which holds two entries; each further one is twice as large.
+// Places are counted in cache lines. The first block of a word is one line, which holds five
+// entries; each further one is twice as large.
 //
 // One thread makes blocks. Others may read those whose places they were told.
 class PostingMemory {
  public:
-  static constexpr std::size_t kUnit = 32;
-  static constexpr unsigned kMostUnits = 64;  // of a block: 204 entries
+  static constexpr std::size_t kLine = 64;
+  static constexpr unsigned kMostLines = 32;  // of a block: 204 entries
 
   // Whether so many blocks of any size can be made.
   bool hasRoomFor(std::size_t blocks) const noexcept {
-    return blocks <= (kMost - used_) / kMostUnits;
+    return blocks <= (kMost - used_) / kMostLines;
   }
-  // The most first blocks of words in an empty memory.
-  static constexpr std::size_t mostFirstBlocks() noexcept { return kMost / 2; }
 
-  // Makes room: nothing changes where this throws.
+  // Nothing changes where this throws.
   std::uint32_t make(std::uint32_t older) {
-    const unsigned units = older == 0 ? 1 : std::min(kMostUnits, 2 * unitsOf(*at(older)));
-    if (chunks_ == 0 || sizeOf(chunks_ - 1) - end_ < units) addChunk();
+    const unsigned lines = older == 0 ? 1 : std::min(kMostLines, 2 * linesOf(*at(older)));
+    if (chunks_ == 0 || sizeOf(chunks_ - 1) - end_ < lines) addChunk();
     const std::uint32_t place = static_cast<std::uint32_t>((chunks_ - 1) << kOffsetBits | end_);
     PostingBlock* const block = new (bytesAt(place)) PostingBlock;
     block->size.store(0, std::memory_order_relaxed);
-    block->capacity = static_cast<std::uint16_t>((units * kUnit - sizeof(PostingBlock)) / 10);
+    block->capacity = static_cast<std::uint16_t>((lines * kLine - sizeof(PostingBlock)) / 10);
     block->older = older;
-    end_ += units;
-    used_ += units;
+    end_ += lines;
+    used_ += lines;
     return place;
   }
 
@@ -70,34 +68,33 @@ class PostingMemory {
   }
 
   std::size_t bytes() const noexcept {
-    std::size_t units = 0;
-    for (std::size_t i = 0; i < chunks_; ++i) units += sizeOf(i);
-    return units * kUnit;
+    std::size_t lines = 0;
+    for (std::size_t i = 0; i < chunks_; ++i) lines += sizeOf(i);
+    return lines * kLine;
   }
 
  private:
   // A place has the number of a chunk and an offset in it. Chunks double.
-  static constexpr unsigned kOffsetBits = 27;
+  static constexpr unsigned kOffsetBits = 26;
   static constexpr std::size_t kChunks = 16;
-  static constexpr std::size_t kFirstUnits = 1024;
-  static constexpr std::size_t kMost = kFirstUnits
-                                       << (kChunks - 1);  // half of what chunks hold: 1 GB
+  static constexpr std::size_t kFirstLines = 512;
+  static constexpr std::size_t kMost = kFirstLines << (kChunks - 1);  // half of chunks: 1 GB
 
-  static std::size_t sizeOf(std::size_t chunk) noexcept { return kFirstUnits << chunk; }
-  static unsigned unitsOf(const PostingBlock& block) noexcept {
-    return static_cast<unsigned>((block.capacity * 10u + 10 + sizeof(PostingBlock)) / kUnit);
+  static std::size_t sizeOf(std::size_t chunk) noexcept { return kFirstLines << chunk; }
+  static unsigned linesOf(const PostingBlock& block) noexcept {
+    return static_cast<unsigned>((block.capacity * 10u + 10 + sizeof(PostingBlock)) / kLine);
   }
 
   unsigned char* bytesAt(std::uint32_t place) const noexcept {
     const std::size_t offset = place & ((1u << kOffsetBits) - 1);
-    return begins_[place >> kOffsetBits] + offset * kUnit;
+    return begins_[place >> kOffsetBits] + offset * kLine;
   }
 
   void addChunk() {
-    const std::size_t size = sizeOf(chunks_) * kUnit;
-    memory_[chunks_].reset(new unsigned char[size + kUnit]);
+    const std::size_t size = sizeOf(chunks_) * kLine;
+    memory_[chunks_].reset(new unsigned char[size + kLine]);
     const std::uintptr_t at = reinterpret_cast<std::uintptr_t>(memory_[chunks_].get());
-    begins_[chunks_] = memory_[chunks_].get() + (kUnit - at % kUnit) % kUnit;
+    begins_[chunks_] = memory_[chunks_].get() + (kLine - at % kLine) % kLine;
     end_ = chunks_ == 0 ? 1 : 0;  // place 0 means none
     ++chunks_;
   }
@@ -105,8 +102,8 @@ class PostingMemory {
   std::unique_ptr<unsigned char[]> memory_[kChunks];
   unsigned char* begins_[kChunks] = {};
   std::size_t chunks_ = 0;
-  std::size_t end_ = 0;   // units of the last chunk that are taken
-  std::size_t used_ = 0;  // units of blocks
+  std::size_t end_ = 0;   // lines of the last chunk that are taken
+  std::size_t used_ = 0;  // lines of blocks
 };
 
 }  // namespace detail

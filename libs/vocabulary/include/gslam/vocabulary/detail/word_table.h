@@ -11,8 +11,19 @@ namespace gslam {
 inline namespace v1 {
 namespace detail {
 
-// A hash table from words to places, which are not 0: a vocabulary may have millions of words of
-// which few are there. Its size is fixed. One thread changes it; others may search meanwhile.
+// Where a word is: in one entry, whose value stands in the table itself (most words are in few
+// images), or in a list, which has a place.
+struct WordSlot {
+  // The word in the upper half, and in the lower one kOneEntry and the number of the entry, or the
+  // place of the newest block of the list. 0: free.
+  std::atomic<std::uint64_t> head{0};
+  double value;  // of the one entry; it stays when there is a list
+
+  static constexpr std::uint32_t kOneEntry = 0x80000000u;
+};
+
+// A hash table of words: a vocabulary may have millions of them, of which few are there. Its size
+// is fixed. One thread changes it; others may search meanwhile.
 class WordTable {
  public:
   // Of so many words at most, which fill five of eight slots.
@@ -21,32 +32,42 @@ class WordTable {
     while ((std::size_t(1) << bits) / 8 * 5 < words) ++bits;
     mask_ = (std::size_t(1) << bits) - 1;
     shift_ = 64 - bits;
-    slots_.reset(new std::atomic<std::uint64_t>[mask_ + 1]);
-    for (std::size_t i = 0; i <= mask_; ++i) slots_[i].store(0, std::memory_order_relaxed);
+    slots_.reset(new WordSlot[mask_ + 1]);
   }
   // A larger one with the same content.
   WordTable(const WordTable& other, std::size_t words) : WordTable(words) {
     entries_.store(other.entries(), std::memory_order_relaxed);
     for (std::size_t i = 0; i <= other.mask_; ++i) {
-      const std::uint64_t slot = other.slots_[i].load(std::memory_order_relaxed);
-      if (slot != 0) set(static_cast<std::uint32_t>(slot >> 32), static_cast<std::uint32_t>(slot));
+      const std::uint64_t head = other.slots_[i].head.load(std::memory_order_relaxed);
+      if (head == 0) continue;
+      const auto word = static_cast<std::uint32_t>(head >> 32);
+      slots_[slotOf(word)].value = other.slots_[i].value;
+      set(word, static_cast<std::uint32_t>(head));
     }
   }
 
   bool hasRoomFor(std::size_t words) const noexcept { return used_ + words <= (mask_ + 1) / 8 * 5; }
   std::size_t used() const noexcept { return used_; }
-  std::size_t bytes() const noexcept { return (mask_ + 1) * sizeof(std::uint64_t); }
 
-  // 0 for a word that is not there.
-  std::uint32_t find(std::uint32_t word) const noexcept {
-    const std::uint64_t slot = slots_[slotOf(word)].load(std::memory_order_acquire);
-    return slot >> 32 == word ? static_cast<std::uint32_t>(slot) : 0;
+  // The lower half of the head; 0 for a word that is not there. The value is only set where it is
+  // that of the one entry.
+  std::uint32_t find(std::uint32_t word, double& value) const noexcept {
+    const WordSlot& slot = slots_[slotOf(word)];
+    const std::uint64_t head = slot.head.load(std::memory_order_acquire);
+    if (head == 0) return 0;
+    const auto where = static_cast<std::uint32_t>(head);
+    if ((where & WordSlot::kOneEntry) != 0) value = slot.value;
+    return where;
   }
-  // There must be room for one that is new.
-  void set(std::uint32_t word, std::uint32_t place) noexcept {
-    const std::size_t i = slotOf(word);
-    if (slots_[i].load(std::memory_order_relaxed) == 0) ++used_;
-    slots_[i].store(std::uint64_t(word) << 32 | place, std::memory_order_release);
+  // A word that is new, with its first entry. There must be room.
+  void add(std::uint32_t word, std::uint32_t entry, double value) noexcept {
+    slots_[slotOf(word)].value = value;
+    set(word, WordSlot::kOneEntry | entry);
+  }
+  void set(std::uint32_t word, std::uint32_t where) noexcept {
+    WordSlot& slot = slots_[slotOf(word)];
+    if (slot.head.load(std::memory_order_relaxed) == 0) ++used_;
+    slot.head.store(std::uint64_t(word) << 32 | where, std::memory_order_release);
   }
   // Where find() will look.
   const void* firstSlot(std::uint32_t word) const noexcept { return &slots_[hashOf(word)]; }
@@ -66,14 +87,14 @@ class WordTable {
   std::size_t slotOf(std::uint32_t word) const noexcept {
     std::size_t i = hashOf(word);
     for (;; i = (i + 1) & mask_) {
-      const std::uint64_t slot = slots_[i].load(std::memory_order_relaxed);
-      if (slot == 0 || slot >> 32 == word) return i;
+      const std::uint64_t head = slots_[i].head.load(std::memory_order_relaxed);
+      if (head == 0 || head >> 32 == word) return i;
     }
   }
 
   std::size_t mask_;
   unsigned shift_;
-  std::unique_ptr<std::atomic<std::uint64_t>[]> slots_;
+  std::unique_ptr<WordSlot[]> slots_;
   std::size_t used_ = 0;
   std::atomic<std::uint32_t> entries_{0};
 };
