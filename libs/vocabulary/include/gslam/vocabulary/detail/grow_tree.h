@@ -156,36 +156,42 @@ inline void growOnlyChild(const SplitSettings& settings, const std::uint8_t* row
   tree.centres.assign(row, row + strideOf(settings.format));
 }
 
-// Breadth first, so that the ids of nodes are their numbers.
-inline TreeData treeDataOf(const GrownTree& tree, const SplitSettings& settings,
-                           std::uint32_t depth) {
+inline std::vector<std::uint32_t> breadthFirst(const GrownTree& tree) {
+  std::vector<std::uint32_t> order(1, 0u);
+  order.reserve(tree.nodes.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const GrownTree::Node node = tree.nodes[order[i]];
+    for (std::uint32_t c = 0; c < node.child_count; ++c) order.push_back(node.first_child + c);
+  }
+  return order;
+}
+
+// Nodes in the order of breadthFirst(), so that their ids are their numbers; leaves weigh 1.
+inline TreeData treeDataOf(const GrownTree& tree, const std::vector<std::uint32_t>& order,
+                           const SplitSettings& settings, std::uint32_t depth) {
   TreeData data;
   data.format = settings.storage;
   data.branching = settings.clusters;
   data.depth = depth;
-  const std::size_t node_count = tree.nodes.size();
+  const std::size_t count = order.size() - 1;
   const std::size_t bytes = bytesOf(data.format);
   const std::size_t stride = strideOf(settings.format);
-  data.parents.reserve(node_count - 1);
-  data.descriptors.resize((node_count - 1) * bytes);
-  std::vector<std::uint32_t> order(1, 0u);
-  order.reserve(node_count);
-  std::uint8_t* descriptor = data.descriptors.data();
-  for (std::uint32_t i = 0; i < order.size(); ++i) {
+  data.weights.assign(count, 1.0);
+  data.descriptors.resize(count * bytes);
+  std::uint32_t word = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
     const GrownTree::Node node = tree.nodes[order[i]];
-    for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
-      order.push_back(c);
-      data.parents.push_back(i);
-      const std::uint8_t* const centre = &tree.centres[(c - 1) * stride];
-      if (data.format.type == DescriptorType::binary) {
-        std::memcpy(descriptor, centre, bytes);
-      } else {
-        encodeFloats(data.format, reinterpret_cast<const float*>(centre), descriptor);
-      }
-      descriptor += bytes;
+    data.parents.insert(data.parents.end(), node.child_count, static_cast<std::uint32_t>(i));
+    if (i == 0) continue;
+    data.words.push_back(node.child_count == 0 ? word++ : kNone);
+    const std::uint8_t* const centre = &tree.centres[(order[i] - 1) * stride];
+    std::uint8_t* const descriptor = &data.descriptors[(i - 1) * bytes];
+    if (data.format.type == DescriptorType::binary) {
+      std::memcpy(descriptor, centre, bytes);
+    } else {
+      encodeFloats(data.format, reinterpret_cast<const float*>(centre), descriptor);
     }
   }
-  data.weights.assign(node_count - 1, 1.0);
   return data;
 }
 

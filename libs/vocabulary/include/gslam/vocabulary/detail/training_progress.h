@@ -15,9 +15,12 @@ namespace detail {
 // Thread-safe. The callback runs in one thread at a time.
 class TrainingProgress {
  public:
-  // `total`: work to be done, of which add() says what has been.
-  TrainingProgress(const std::function<bool(double)>& callback, std::uint64_t total)
-      : callback_(callback), total_(std::max<std::uint64_t>(1, total)) {}
+  explicit TrainingProgress(const std::function<bool(double)>& callback) : callback_(callback) {}
+
+  // Work to be done, of which add() says what has been.
+  void setTotal(std::uint64_t total) noexcept { total_ = std::max<std::uint64_t>(1, total); }
+
+  void setDone(std::uint64_t work) noexcept { done_.store(work, std::memory_order_relaxed); }
 
   bool isCancelled() const noexcept { return is_cancelled_.load(std::memory_order_relaxed); }
 
@@ -39,7 +42,7 @@ class TrainingProgress {
 
  private:
   const std::function<bool(double)>& callback_;
-  const std::uint64_t total_;
+  std::uint64_t total_ = 1;
   std::atomic<std::uint64_t> done_{0};
   std::atomic<bool> is_cancelled_{false};
   std::mutex mutex_;
