@@ -100,9 +100,9 @@ inline std::size_t findCommonSse4(WordLists& lists, CommonWords& found) {
     const __m128i same3 = _mm_cmpeq_epi32(x, _mm_shuffle_epi32(y, 0x93));  // y 3 0 1 2
     const unsigned in_a =
         signsSse4(_mm_or_si128(_mm_or_si128(same0, same1), _mm_or_si128(same2, same3)));
-    const unsigned in_b = signsSse4(_mm_or_si128(
-        _mm_or_si128(same0, _mm_shuffle_epi32(same1, 0x93)),
-        _mm_or_si128(_mm_shuffle_epi32(same2, 0x4E), _mm_shuffle_epi32(same3, 0x39))));
+    const unsigned in_b = signsSse4(
+        _mm_or_si128(_mm_or_si128(same0, _mm_shuffle_epi32(same1, 0x93)),
+                     _mm_or_si128(_mm_shuffle_epi32(same2, 0x4E), _mm_shuffle_epi32(same3, 0x39))));
     writePlacesSse4(found.in_a + count, i, in_a);
     writePlacesSse4(found.in_b + count, j, in_b);
     count += bitCountOf4(in_a);
@@ -160,8 +160,8 @@ inline std::size_t findCommonAvx2(WordLists& lists, CommonWords& found) {
     const unsigned in_a = signsAvx2(_mm256_or_si256(straight.inX(), crossed.inX()));
     if (in_a != 0) {
       const __m256i other = crossed.inY();
-      const unsigned in_b = signsAvx2(
-          _mm256_or_si256(straight.inY(), _mm256_permute2x128_si256(other, other, 1)));
+      const unsigned in_b =
+          signsAvx2(_mm256_or_si256(straight.inY(), _mm256_permute2x128_si256(other, other, 1)));
       writePlacesAvx2(found.in_a + count, i, in_a);
       writePlacesAvx2(found.in_b + count, j, in_b);
       count += static_cast<unsigned>(_mm_popcnt_u32(in_a));
@@ -203,9 +203,9 @@ inline std::size_t findCommonNeon(WordLists& lists, CommonWords& found) {
     const uint32x4_t same2 = vceqq_u32(x, vextq_u32(y, y, 2));
     const uint32x4_t same3 = vceqq_u32(x, vextq_u32(y, y, 3));
     const unsigned in_a = signsNeon(vorrq_u32(vorrq_u32(same0, same1), vorrq_u32(same2, same3)));
-    const unsigned in_b = signsNeon(
-        vorrq_u32(vorrq_u32(same0, vextq_u32(same1, same1, 3)),
-                  vorrq_u32(vextq_u32(same2, same2, 2), vextq_u32(same3, same3, 1))));
+    const unsigned in_b =
+        signsNeon(vorrq_u32(vorrq_u32(same0, vextq_u32(same1, same1, 3)),
+                            vorrq_u32(vextq_u32(same2, same2, 2), vextq_u32(same3, same3, 1))));
     writePlacesNeon(found.in_a + count, i, in_a);
     writePlacesNeon(found.in_b + count, j, in_b);
     count += bitCountOf4(in_a);
@@ -226,9 +226,9 @@ using FindCommon = std::size_t (*)(WordLists&, CommonWords&);
 // Finds the next common words, and returns how many; goes on where it stopped. When none are left,
 // the lists are done. Lists that do not ascend give something else, but are not left.
 inline const SimdKernel<FindCommon>& findCommonKernel() noexcept {
-  static constexpr SimdKernel<FindCommon> kernel(
-      findCommonScalar, GSLAM_IF_X86(findCommonSse4), GSLAM_IF_X86(findCommonAvx2), nullptr,
-      GSLAM_IF_ARM64(findCommonNeon));
+  static constexpr SimdKernel<FindCommon> kernel(findCommonScalar, GSLAM_IF_X86(findCommonSse4),
+                                                 GSLAM_IF_X86(findCommonAvx2), nullptr,
+                                                 GSLAM_IF_ARM64(findCommonNeon));
   return kernel;
 }
 

@@ -38,51 +38,49 @@ class Descent {
   // leaf, where that is above), unless it is null. Level 0 is the root.
   void run(const std::uint8_t* queries, std::size_t query_stride, std::size_t count,
            std::uint32_t level, std::uint32_t* nodes, std::uint32_t* passed) {
-    queries_ = queries;
-    query_stride_ = query_stride;
-    nodes_ = nodes;
-    std::fill(nodes, nodes + count, 0u);
-    for (std::size_t i = 0; i < count; ++i) active_[i] = static_cast<std::uint32_t>(i);
-    active_count_ = count;
-    if (passed != nullptr) std::fill(passed, passed + count, 0u);
-    for (std::uint32_t now = 1; prepare(); ++now) {
-      choose_(tree_.format, tree_.stride, visits_, active_count_, choices_);
-      for (std::size_t i = 0; i < active_count_; ++i) {
-        nodes[active_[i]] = visits_[i].first + choices_[i].index;
-      }
-      if (passed != nullptr && now <= level) {
-        for (std::size_t i = 0; i < active_count_; ++i) passed[active_[i]] = nodes[active_[i]];
-      }
+    for (std::size_t i = 0; i < count; ++i) {
+      indices_[i] = static_cast<std::uint32_t>(i);
+      visits_[i] = Visit{queries + i * query_stride, nullptr, 0, 0};
+      choices_[i] = Choice{0, 0};
+    }
+    count_ = count;
+    bool goes_on = goDown(nodes);
+    for (std::uint32_t now = 0; now < level && goes_on; ++now) {
+      choose_(tree_.format, tree_.stride, visits_, count_, choices_);
+      goes_on = goDown(nodes);
+    }
+    if (passed != nullptr) std::copy(nodes, nodes + count, passed);
+    while (goes_on) {
+      choose_(tree_.format, tree_.stride, visits_, count_, choices_);
+      goes_on = goDown(nodes);
     }
   }
 
  private:
-  // Leaves out who is at a leaf. False when all are.
-  bool prepare() {
+  // To the chosen nodes. Who is at a leaf is left out from now on; false when all are.
+  bool goDown(std::uint32_t* nodes) {
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < active_count_; ++i) {
-      const std::uint32_t index = active_[i];
-      const Children children = childrenOf(tree_, nodes_[index]);
-      visits_[kept] = Visit{queries_ + index * query_stride_,
-                            tree_.descriptors + children.first * tree_.stride, children.count,
-                            children.first};
-      active_[kept] = index;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const std::uint32_t node = visits_[i].first + choices_[i].index;
+      const std::uint32_t index = indices_[i];
+      nodes[index] = node;
+      const Children children = childrenOf(tree_, node);
       if (children.count == 0) continue;
+      visits_[kept] = Visit{visits_[i].query, descriptorOf(tree_, children.first), children.count,
+                            children.first};
+      indices_[kept] = index;
       fetch(tree_.links + children.first);
       fetch(tree_.child_counts + children.first);
       ++kept;
     }
-    active_count_ = kept;
+    count_ = kept;
     return kept != 0;
   }
 
   const TreeView& tree_;
   const ChooseFunction choose_;
-  const std::uint8_t* queries_ = nullptr;
-  std::size_t query_stride_ = 0;
-  std::uint32_t* nodes_ = nullptr;
-  std::size_t active_count_ = 0;
-  std::uint32_t active_[kTogether];
+  std::size_t count_ = 0;  // of those on their way
+  std::uint32_t indices_[kTogether];
   Visit visits_[kTogether];
   Choice choices_[kTogether];
 };

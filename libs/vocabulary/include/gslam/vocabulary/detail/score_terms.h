@@ -73,12 +73,18 @@ struct KlTerm {
 template <class Action>
 auto withTerm(Scoring scoring, Action&& action) -> decltype(action(L1Term())) {
   switch (scoring) {
-    case Scoring::l1: return action(L1Term());
-    case Scoring::l2: return action(L2Term());
-    case Scoring::chi_square: return action(ChiSquareTerm());
-    case Scoring::kl: return action(KlTerm());
-    case Scoring::bhattacharyya: return action(BhattacharyyaTerm());
-    case Scoring::dot: return action(DotTerm());
+    case Scoring::l1:
+      return action(L1Term());
+    case Scoring::l2:
+      return action(L2Term());
+    case Scoring::chi_square:
+      return action(ChiSquareTerm());
+    case Scoring::kl:
+      return action(KlTerm());
+    case Scoring::bhattacharyya:
+      return action(BhattacharyyaTerm());
+    case Scoring::dot:
+      return action(DotTerm());
   }
   throw ArgumentError("scoring", "is " + std::to_string(static_cast<int>(scoring)) +
                                      ", expected one of the six of Scoring");
