@@ -89,6 +89,9 @@
 /// Begins a region whose functions are compiled for x86-64-v3 (AVX2, FMA, BMI2).
 /// @def GSLAM_TARGET_AVX512
 /// Begins a region whose functions are compiled for x86-64-v4 (AVX-512 F, BW, CD, DQ, VL).
+/// @def GSLAM_TARGET_AVX512_POPCNT
+/// Begins a region as GSLAM_TARGET_AVX512 with AVX-512 VPOPCNTDQ, which not all of these have: a
+/// second kernel for Simd::avx512, where detail::detectCpu() says `avx512_popcnt`.
 /// @def GSLAM_TARGET_END
 /// Ends a target region.
 ///
@@ -117,6 +120,9 @@
 #define GSLAM_TARGET_AVX2 GSLAM_DETAIL_TARGET("avx2,fma,bmi,bmi2,popcnt")
 #define GSLAM_TARGET_AVX512 \
   GSLAM_DETAIL_TARGET("avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx2,fma,bmi,bmi2,popcnt")
+#define GSLAM_TARGET_AVX512_POPCNT \
+  GSLAM_DETAIL_TARGET(             \
+      "avx512f,avx512bw,avx512cd,avx512dq,avx512vl,avx512vpopcntdq,avx2,fma,bmi,bmi2,popcnt")
 #endif
 
 namespace gslam {
@@ -129,10 +135,11 @@ struct CpuFeatures {
   bool avx2;
   bool avx512;
   bool neon;
+  bool avx512_popcnt;  // avx512 and VPOPCNTDQ
 };
 
 inline CpuFeatures detectCpu() {
-  CpuFeatures cpu = {false, false, false, GSLAM_ARM64 == 1};
+  CpuFeatures cpu = {false, false, false, GSLAM_ARM64 == 1, false};
 #if GSLAM_X86
   __builtin_cpu_init();
   cpu.sse4 = __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt");
@@ -141,6 +148,7 @@ inline CpuFeatures detectCpu() {
   cpu.avx512 = cpu.avx2 && __builtin_cpu_supports("avx512f") &&
                __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") &&
                __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+  cpu.avx512_popcnt = cpu.avx512 && __builtin_cpu_supports("avx512vpopcntdq");
 #endif
   return cpu;
 }

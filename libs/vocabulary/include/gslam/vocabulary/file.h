@@ -1,12 +1,16 @@
 #ifndef GSLAM_VOCABULARY_FILE_H
 #define GSLAM_VOCABULARY_FILE_H
 
+#include <gslam/base/detail/checksum.h>
+#include <gslam/base/detail/new_file.h>
 #include <gslam/base/error.h>
-#include <gslam/vocabulary/detail/checksum.h>
-#include <gslam/vocabulary/detail/file_target.h>
 #include <gslam/vocabulary/detail/tree_file.h>
 #include <gslam/vocabulary/vocabulary.h>
 
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
 #include <string>
 
 /// @file
@@ -17,40 +21,48 @@ namespace gslam {
 inline namespace v1 {
 
 /// Writes a vocabulary. The file appears when it is complete, in place of one that was there.
-/// @throws FileError when it cannot be written; ArgumentError for an empty vocabulary
+/// @throws FileError when it cannot be written, ArgumentError for an empty vocabulary
 inline void saveVocabulary(const Vocabulary& vocabulary, const std::string& path) {
-  if (vocabulary.nodeCount() == 0) throw ArgumentError("vocabulary", "is empty");
-  detail::TreeHeader header;
-  const std::shared_ptr<const detail::Storage> tree = vocabulary.storage();
-  detail::fillHeader(vocabulary.tree(), header);
-  const std::uint8_t* const body = tree->data() + detail::kTreeHeaderSize;
-  const std::size_t body_size = tree->size() - detail::kTreeHeaderSize;
-  header.checksum = detail::checksum64(body, body_size);
-  detail::seal(header);
-  detail::FileTarget target(path);
-  target.write(&header, sizeof header);
-  target.write(body, body_size);
-  target.finish();
+  if (vocabulary.storage() == nullptr) throw ArgumentError("vocabulary", "is empty");
+  const std::uint8_t* const body = vocabulary.storage()->data() + detail::kTreeHeaderSize;
+  const std::size_t body_size = vocabulary.storage()->size() - detail::kTreeHeaderSize;
+  detail::TreeHeader header = detail::headerOf(vocabulary.tree());
+  header.checksum = detail::Xxh64::of(body, body_size);
+  header.header_checksum = detail::checksumOfHeader(header);
+  detail::NewFile file(path);
+  file.write(&header, sizeof header);
+  file.write(body, body_size);
+  file.commit();
 }
 
 /// Opens a file of saveVocabulary(): it is mapped, not read. The header is checked, and that the
-/// file is as long as it says. Of the rest nothing is touched: a damaged file gives wrong words,
-/// but no crash; verifyVocabulary() tells. The file must not be changed while it is open (replacing
-/// it, as saveVocabulary() does, is no change): who shortens it makes the system end the process.
+/// file is as long as it says; the rest is not touched. A file that is damaged there gives wrong
+/// words, but no crash; verifyVocabulary() tells.
+///
+/// Nobody may write into the file while it is open; to replace it, as saveVocabulary() does, is
+/// all right. Where somebody makes it shorter, the system ends processes that read what was cut.
 /// @throws FileError when it cannot be opened, ParseError when it is none or of another version
 inline Vocabulary openVocabulary(const std::string& path) {
-  const std::shared_ptr<const detail::Storage> storage =
-      detail::Storage::ofFile(detail::MappedFile(path));
-  return detail::treeOfBytes(storage, path);
+  return detail::TreeOpener(detail::Storage::ofFile(detail::MappedFile(path)), path).open();
 }
 
 /// Checks all of a vocabulary: the checksum of its file, and every number in it. Reads all of it.
-/// @param name  for the message, such as the path
+/// @param vocabulary  opened, or made in another way, which has no checksum
+/// @param name        for the message, such as the path
 /// @throws ParseError that says what is damaged
 inline void verifyVocabulary(const Vocabulary& vocabulary, const std::string& name = "vocabulary") {
-  if (vocabulary.nodeCount() == 0) return;
-  detail::checkSum(vocabulary, name);
-  detail::checkTree(vocabulary.tree(), name);
+  const std::shared_ptr<const detail::Storage>& storage = vocabulary.storage();
+  if (storage == nullptr) return;
+  if (storage->isMapped()) {
+    detail::TreeHeader header;
+    std::memcpy(&header, storage->data(), sizeof header);
+    const std::uint64_t sum = detail::Xxh64::of(storage->data() + detail::kTreeHeaderSize,
+                                                storage->size() - detail::kTreeHeaderSize);
+    if (sum != header.checksum) {
+      throw ParseError(name, 0, 0, "is damaged: bytes 256 to its end do not fit its checksum");
+    }
+  }
+  detail::TreeChecker(vocabulary.tree(), name).check();
 }
 
 }  // namespace v1
