@@ -26,7 +26,9 @@ namespace detail {
 
 class OrbTextReader {
  public:
-  explicit OrbTextReader(const VocabularyText& text) : text_(text), end_(text.end()) {
+  // @param piece  bytes that a thread reads at once
+  explicit OrbTextReader(const VocabularyText& text, std::size_t piece = std::size_t(1) << 20)
+      : text_(text), piece_(piece), end_(text.end()) {
     // The last line may have an end, or not; ORB-SLAM makes a node of what is behind it.
     while (end_ != text.begin() && isSpace(end_[-1])) --end_;
   }
@@ -43,8 +45,6 @@ class OrbTextReader {
   }
 
  private:
-  static constexpr std::size_t kPiece = std::size_t(1) << 20;  // bytes that a thread reads at once
-
   static bool isBlank(char c) noexcept { return c == ' ' || c == '\t' || c == '\r'; }
   static bool isSpace(char c) noexcept { return isBlank(c) || c == '\n'; }
   const char* skipBlanks(const char* p) const noexcept {
@@ -104,12 +104,12 @@ class OrbTextReader {
 
   std::size_t bodySize() const noexcept { return static_cast<std::size_t>(end_ - body_); }
   const char* pieceBegin(std::size_t i) const noexcept {
-    return body_ + std::min(bodySize(), i * kPiece);
+    return body_ + std::min(bodySize(), i * piece_);
   }
 
   // How many nodes begin before each piece, and in all.
   std::vector<std::size_t> firstNodes(const ParallelOptions& options) const {
-    const std::size_t count = bodySize() / kPiece + 1;
+    const std::size_t count = bodySize() / piece_ + 1;
     std::vector<std::size_t> firsts(count + 1);
     parallelFor(0, count, [&](std::size_t i) {
       // A node begins behind each end of a line, of which one is in front of the body.
@@ -207,6 +207,7 @@ class OrbTextReader {
   }
 
   const VocabularyText& text_;
+  const std::size_t piece_;
   const char* end_;             // without spaces at the end
   const char* body_ = nullptr;  // the first node
   TreeData data_;
