@@ -116,8 +116,8 @@ inline std::string exactDecimals(double value) {
     }
     double read = 0;
     const char* const begin = decimals.data();
-    scanDouble(begin, begin + decimals.size(), read);
-    if (read == value || digits == 17) return decimals;
+    const bool is_read = scanDouble(begin, begin + decimals.size(), read) != nullptr;
+    if ((is_read && read == value) || digits == 17) return decimals;
   }
   return "0";  // never reached
 }
