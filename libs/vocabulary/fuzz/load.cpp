@@ -48,7 +48,8 @@ void roundTrip(const Vocabulary& vocabulary) {
   std::string text;
   gslam::detail::OrbTextWriter(data).write(
       [&text](const char* piece, std::size_t size) { text.append(piece, size); });
-  const TreeData again = gslam::detail::treeDataOf(gslam::loadVocabulary(bytesOfText(text), "text"));
+  const TreeData again =
+      gslam::detail::treeDataOf(gslam::loadVocabulary(bytesOfText(text), "text"));
   if (again.descriptors != data.descriptors || again.words != data.words ||
       again.weights != data.weights || again.parents.size() != data.parents.size()) {
     std::abort();

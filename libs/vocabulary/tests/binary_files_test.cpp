@@ -108,9 +108,10 @@ TEST(dbow3_binary, errors_name_the_byte) {
             "toy: byte 29: expected nodes, 4294967294 times 60 bytes, got " +
                 std::to_string(bytes.size() - 29) + " bytes up to the end of the file");
   EXPECT_EQ(errorOf(replaced(bytes, words, 0x10000000U)),
-            "toy: byte " + std::to_string(words + 4) + ": expected words, 268435456 times 8 bytes, "
-            "got " + std::to_string(bytes.size() - words - 4) +
-                " bytes up to the end of the file");
+            "toy: byte " + std::to_string(words + 4) +
+                ": expected words, 268435456 times 8 bytes, "
+                "got " +
+                std::to_string(bytes.size() - words - 4) + " bytes up to the end of the file");
   EXPECT_NE(errorOf(replaced(bytes, 29 + 4, 2U)), "");  // a circle
 }
 
@@ -153,8 +154,7 @@ TEST(gbow, damaged_files_are_refused) {
 
 TEST(gbow, errors_name_the_byte) {
   const Bytes bytes = toy::gbow(toy::makeTree(1, 3, 2, 32, true));
-  EXPECT_EQ(errorOf(replaced(bytes, 41, 4U)),
-            "toy: byte 41: a node has 4 children, but K is 3");
+  EXPECT_EQ(errorOf(replaced(bytes, 41, 4U)), "toy: byte 41: a node has 4 children, but K is 3");
   EXPECT_EQ(errorOf(replaced(bytes, 41 + 4 * 8, 1U)),
             "toy: byte 73: the children of a node would be behind the last, which is 12");
   EXPECT_EQ(errorOf(replaced(bytes, 37, 7U)),

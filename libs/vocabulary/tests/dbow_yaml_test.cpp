@@ -110,9 +110,9 @@ TEST(dbow_yaml, layout_is_free_where_yaml_is) {
 
 TEST(dbow_yaml, fields_may_be_in_any_order) {
   EXPECT_EQ(errorOf(kSmall), "");
-  const Vocabulary vocabulary = load(replacedAll(
-      kSmall, "nodeId:4, parentId:1, weight:1.5,\n          descriptor:\"7 8 9 \"",
-      "descriptor:\"7 8 9 \", weight:1.5, parentId:1, nodeId:4"));
+  const Vocabulary vocabulary =
+      load(replacedAll(kSmall, "nodeId:4, parentId:1, weight:1.5,\n          descriptor:\"7 8 9 \"",
+                       "descriptor:\"7 8 9 \", weight:1.5, parentId:1, nodeId:4"));
   EXPECT_EQ(vocabulary.wordCount(), 3u);
   EXPECT_EQ(vocabulary.weight(2), 1.5);
   EXPECT_EQ(vocabulary.scoring(), gslam::Scoring::kl);
@@ -206,32 +206,50 @@ TEST(dbow_yaml, errors_name_the_line_and_the_column) {
   EXPECT_EQ(errorOf(replaced("   L: 2\n", "   M: 2\n")),
             "toy.yml:5:4: expected k, L, scoringType, weightingType, nodes, words or the end of "
             "the file, got 'M:'");
-  EXPECT_EQ(errorOf(replaced("   L: 2\n", "")), "toy.yml:20:1: expected the field L, got the end "
-                                                "of the file");
+  EXPECT_EQ(errorOf(replaced("   L: 2\n", "")),
+            "toy.yml:20:1: expected the field L, got the end "
+            "of the file");
 }
 
 TEST(dbow_yaml, other_wrong_files_are_refused) {
   const std::string words = std::string(kSmall).substr(std::string(kSmall).find("   words"));
   for (const std::string& text :
-       {replaced(words, ""), replaced("      - { wordId:1, nodeId:3 }\n", ""),
+       {replaced(words, ""),
+        replaced("      - { wordId:1, nodeId:3 }\n", ""),
         replaced("wordId:1, nodeId:3", "wordId:0, nodeId:3"),
         replaced("wordId:1, nodeId:3", "wordId:1, nodeId:1"),
         replaced("wordId:1, nodeId:3", "wordId:99999999, nodeId:3"),
         replaced("wordId:1, nodeId:3", "wordId:1, nodeId:0"),
-        replaced("wordId:1, nodeId:3", "wordId:1, wordId:3"), replaced("wordId:1", "wordId:-1"),
+        replaced("wordId:1, nodeId:3", "wordId:1, wordId:3"),
+        replaced("wordId:1", "wordId:-1"),
         replaced("nodeId:1, parentId:0", "nodeId:1, parentId:3"),  // a circle
-        replaced("nodeId:1,", "nodeId:0,"), replaced("nodeId:1,", "nodeId:4294967297,"),
-        replaced("k: 2", "k: 1"), replaced("k: 2", "k: 65"), replaced("L: 2", "L: 1"),
-        replaced("L: 2", "L: 99999999999"), replaced("scoringType: 3", "scoringType: 6"),
-        replaced("weightingType: 1", "weightingType: 4"), replaced("\"4 5 6 \"", "\"4 5 6 "),
-        replaced("4 5 6 ", "4 5 "), replaced("4 5 6 ", ""), replaced("4 5 6 ", "4.5 5 6 "),
-        replaced("4 5 6 ", "dbw3 0 3 4 5 6 "), replaced("1 2 3 ", "dbw3 0 3 1 2 3 "),
-        replaced("1 2 3 ", "dbw3"), replaced("1 2 3 ", "dbw3 0 0 "), replaced("1 2 3 ", ""),
-        replaced("1 2 3 ", "dbw3 7 3 1 2 3 "), replaced("1 2 3 ", "dbw3 0 99999 1 2 3 "),
-        replaced("vocabulary:", "vocabulary"), replaced("vocabulary:", "database:"),
-        std::string("%YAML:1.0\n---\n"), std::string("%YAML:1.0"), std::string("vocabulary:"),
+        replaced("nodeId:1,", "nodeId:0,"),
+        replaced("nodeId:1,", "nodeId:4294967297,"),
+        replaced("k: 2", "k: 1"),
+        replaced("k: 2", "k: 65"),
+        replaced("L: 2", "L: 1"),
+        replaced("L: 2", "L: 99999999999"),
+        replaced("scoringType: 3", "scoringType: 6"),
+        replaced("weightingType: 1", "weightingType: 4"),
+        replaced("\"4 5 6 \"", "\"4 5 6 "),
+        replaced("4 5 6 ", "4 5 "),
+        replaced("4 5 6 ", ""),
+        replaced("4 5 6 ", "4.5 5 6 "),
+        replaced("4 5 6 ", "dbw3 0 3 4 5 6 "),
+        replaced("1 2 3 ", "dbw3 0 3 1 2 3 "),
+        replaced("1 2 3 ", "dbw3"),
+        replaced("1 2 3 ", "dbw3 0 0 "),
+        replaced("1 2 3 ", ""),
+        replaced("1 2 3 ", "dbw3 7 3 1 2 3 "),
+        replaced("1 2 3 ", "dbw3 0 99999 1 2 3 "),
+        replaced("vocabulary:", "vocabulary"),
+        replaced("vocabulary:", "database:"),
+        std::string("%YAML:1.0\n---\n"),
+        std::string("%YAML:1.0"),
+        std::string("vocabulary:"),
         std::string("---\nvocabulary:\n   k: 2\n   nodes:\n   words:\n"),
-        std::string(kSmall) + "and more", std::string(kSmall) + std::string(1, '\0')}) {
+        std::string(kSmall) + "and more",
+        std::string(kSmall) + std::string(1, '\0')}) {
     EXPECT_NE(errorOf(text), "") << text;
   }
 }

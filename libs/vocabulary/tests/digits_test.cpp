@@ -67,8 +67,8 @@ TEST(digits, unsigned_number_keeps_to_its_bound) {
   const Exactly largest("4294967295");
   ASSERT_EQ(scanUnsigned(largest.begin(), largest.end(), 0xFFFFFFFF, value), largest.end());
   EXPECT_EQ(value, 0xFFFFFFFF);
-  for (const char* const wrong : {"4294967296", "18446744073709551616", "99999999999999999999999",
-                                  "-1", "", "x"}) {
+  for (const char* const wrong :
+       {"4294967296", "18446744073709551616", "99999999999999999999999", "-1", "", "x"}) {
     const Exactly text(wrong);
     EXPECT_EQ(scanUnsigned(text.begin(), text.end(), 0xFFFFFFFF, value), nullptr) << wrong;
   }
@@ -76,12 +76,33 @@ TEST(digits, unsigned_number_keeps_to_its_bound) {
 
 TEST(digits, reals_are_rounded_as_the_library_does) {
   for (const char* const text :
-       {"0", "0.", "-0.", ".5", "1.", "1.5", "-2.25", "1e3", "1E+3", "1e-3", "123456.789e-12",
-        "9007199254740993", "9007199254740992.5", "1.2345678901234567e-01", "7.0e-45", "1e-46",
-        "4.9e-324", "1.7976931348623157e308", "2.2250738585072011e-308", "1e23", "1e22",
+       {"0",
+        "0.",
+        "-0.",
+        ".5",
+        "1.",
+        "1.5",
+        "-2.25",
+        "1e3",
+        "1E+3",
+        "1e-3",
+        "123456.789e-12",
+        "9007199254740993",
+        "9007199254740992.5",
+        "1.2345678901234567e-01",
+        "7.0e-45",
+        "1e-46",
+        "4.9e-324",
+        "1.7976931348623157e308",
+        "2.2250738585072011e-308",
+        "1e23",
+        "1e22",
         "179769313486231570000000000000000000000000000000000000000000000000000",
-        "0.00000000000000000000000000000000000000000000000000000000001", "00000000000000000001.5",
-        "3.4028235677973366e38", "1.00000005960464477539", "1.00000005960464477540"}) {
+        "0.00000000000000000000000000000000000000000000000000000000001",
+        "00000000000000000001.5",
+        "3.4028235677973366e38",
+        "1.00000005960464477539",
+        "1.00000005960464477540"}) {
     expectSameAsLibrary(text);
   }
 }
@@ -113,7 +134,8 @@ TEST(digits, floats_are_rounded_once) {
                                  static_cast<int>(random() % 40) - 40);
     const double middle =
         (static_cast<double>(low) +
-         static_cast<double>(std::nextafter(low, std::numeric_limits<float>::infinity()))) / 2;
+         static_cast<double>(std::nextafter(low, std::numeric_limits<float>::infinity()))) /
+        2;
     char text[128];
     std::snprintf(text, sizeof text, "%.50g", middle);
     expectSameAsLibrary(text);

@@ -170,7 +170,8 @@ TEST(gzip, any_kind_of_file_may_be_inside_or_none) {
   toy::expectSame(gslam::loadGzippedVocabulary(fileOf(zipped(text))), tree);
   toy::expectSame(gslam::loadGzippedVocabulary(fileOf(text)), tree);
   toy::expectSame(
-      gslam::loadGzippedVocabulary(fileOf(zipped(std::string(binary.begin(), binary.end())))), tree);
+      gslam::loadGzippedVocabulary(fileOf(zipped(std::string(binary.begin(), binary.end())))),
+      tree);
   const std::size_t half = text.size() / 2;  // two members, as "cat a.gz b.gz" makes them
   toy::expectSame(gslam::loadGzippedVocabulary(
                       fileOf(zipped(text.substr(0, half)) + zipped(text.substr(half)))),

@@ -2,10 +2,9 @@
 #include <gslam/vocabulary/load.h>
 #include <gtest/gtest.h>
 
-#include <opencv2/core/persistence.hpp>
-
 #include <cstdint>
 #include <limits>
+#include <opencv2/core/persistence.hpp>
 #include <string>
 #include <vector>
 
@@ -15,23 +14,30 @@ namespace {
 
 std::string saveAsDbow(const toy::Tree& tree, const std::string& prefix) {
   cv::FileStorage file(".yml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY);
-  file << "vocabulary" << "{";
+  file << "vocabulary"
+       << "{";
   file << "k" << static_cast<int>(tree.branching) << "L" << static_cast<int>(tree.depth);
   file << "scoringType" << static_cast<int>(tree.scoring);
   file << "weightingType" << static_cast<int>(tree.weighting);
-  file << "nodes" << "[";
+  file << "nodes"
+       << "[";
   for (const toy::Node* const node : toy::stackOrder(tree)) {
-    file << "{:" << "nodeId" << static_cast<int>(node->id);
+    file << "{:"
+         << "nodeId" << static_cast<int>(node->id);
     file << "parentId" << static_cast<int>(node->parent);
     file << "weight" << node->weight << "descriptor" << prefix + toy::numbers(*node) << "}";
   }
-  file << "]" << "words" << "[";
+  file << "]"
+       << "words"
+       << "[";
   for (const toy::Node& node : tree.nodes) {
     if (!node.is_leaf) continue;
-    file << "{:" << "wordId" << static_cast<int>(node.word);
+    file << "{:"
+         << "wordId" << static_cast<int>(node.word);
     file << "nodeId" << static_cast<int>(node.id) << "}";
   }
-  file << "]" << "}";
+  file << "]"
+       << "}";
   return file.releaseAndGetString();
 }
 

@@ -120,8 +120,7 @@ std::string replaced(const std::string& from, const std::string& to) {
 
 TEST(orb_text, trees_of_every_shape_are_read) {
   for (unsigned seed = 0; seed < 24; ++seed) {
-    const toy::Tree tree =
-        toy::makeTree(seed, 2 + seed % 7, 1 + seed % 4, 1 + seed * 3, true);
+    const toy::Tree tree = toy::makeTree(seed, 2 + seed % 7, 1 + seed % 4, 1 + seed * 3, true);
     const Vocabulary vocabulary = load(toy::orbText(tree));
     toy::expectSame(vocabulary, tree);
     EXPECT_EQ(static_cast<unsigned>(vocabulary.scoring()), tree.scoring);

@@ -6,7 +6,6 @@
 #include <gslam/vocabulary/detail/mapped_file.h>
 #include <gslam/vocabulary/load.h>
 #include <gslam/vocabulary/vocabulary.h>
-
 #include <zlib.h>
 
 #include <algorithm>
@@ -98,13 +97,12 @@ class GzipReader {
 /// @param path  the file
 /// @param most  bytes that may be in it, unpacked; the largest known are 0.2 GB
 /// @throws FileError when it cannot be read; ParseError when it is damaged, or holds more
-inline Vocabulary loadGzippedVocabulary(const std::string& path,
-                                        std::size_t most = std::size_t(1) << 31) {
+inline Vocabulary loadGzippedVocabulary(const std::string& path, std::size_t most = std::size_t(1)
+                                                                                    << 31) {
   const detail::MappedFile file(path);
   const auto* const data = static_cast<const std::uint8_t*>(file.data());
   if (!detail::beginsWith(data, file.size(), "\x1F\x8B")) return loadVocabulary(path);
-  const std::vector<std::uint8_t> bytes =
-      detail::GzipReader(data, file.size(), most, path).read();
+  const std::vector<std::uint8_t> bytes = detail::GzipReader(data, file.size(), most, path).read();
   return loadVocabulary(Span<const std::uint8_t>(bytes), path);
 }
 

@@ -29,7 +29,8 @@
 ///   nodes and words, which were places, numbered anew, breadth first.
 ///
 /// Words, weights and the order of children, which decides ties, are those of the file; so are the
-/// ids of nodes where the format has some. gslam/vocabulary/gzip.h reads what is compressed by gzip.
+/// ids of nodes where the format has some. gslam/vocabulary/gzip.h reads what is compressed by
+/// gzip.
 
 namespace gslam {
 inline namespace v1 {

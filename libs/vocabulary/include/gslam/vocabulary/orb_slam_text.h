@@ -18,8 +18,8 @@ inline namespace v1 {
 
 /// Writes a vocabulary for ORB-SLAM, ORB-SLAM2, ORB-SLAM3 and DBoW3. Words, weights (to the bit),
 /// the order of children, which decides ties, and K, L, weighting and scoring stay as they are. So
-/// do ids of nodes where they ascend as words do, which is so for what DBoW2, DBoW3 and this library
-/// train; else nodes are numbered anew.
+/// do ids of nodes where they ascend as words do, which is so for what DBoW2, DBoW3 and this
+/// library train; else nodes are numbered anew.
 ///
 /// ORB-SLAM itself reads descriptors of 32 bytes alone. The file appears when it is complete, in
 /// place of one that was there.

@@ -53,8 +53,8 @@ inline std::size_t readMatShape(const ForeignBytes& bytes, std::size_t offset,
   bytes.need(offset, 1, 12, "the shape of descriptors");
   const std::uint32_t columns = bytes.u32(offset);
   if (columns < 1 || columns > 4096) {
-    bytes.fail(offset, "a descriptor has " + std::to_string(columns) +
-                           " columns, expected 1 to 4096");
+    bytes.fail(offset,
+               "a descriptor has " + std::to_string(columns) + " columns, expected 1 to 4096");
   }
   if (bytes.u32(offset + 4) != 1) {
     bytes.fail(offset + 4,

@@ -94,7 +94,6 @@ class DescriptorTextReader {
   }
 
  private:
-
   // What is in a descriptor before one knows what it means.
   struct Words {
     std::size_t count = 0;         // without the mark
@@ -135,8 +134,8 @@ class DescriptorTextReader {
   }
 
   static bool isTyped(const Words& words) {
-    return !words.is_marked && words.count > 2 &&
-           isOpenCvType(words.numbers[0]) && words.numbers[1] == words.count - 2;
+    return !words.is_marked && words.count > 2 && isOpenCvType(words.numbers[0]) &&
+           words.numbers[1] == words.count - 2;
   }
 
   static bool isBits(TextRange range, const Words& words) {
@@ -155,8 +154,8 @@ class DescriptorTextReader {
 
   void setShape(TextRange range, bool is_binary, std::size_t count) {
     if (count < 1 || count > 4096) {
-      text_.fail(range.begin, "the descriptor has " + std::to_string(count) +
-                                  " numbers, expected 1 to 4096");
+      text_.fail(range.begin,
+                 "the descriptor has " + std::to_string(count) + " numbers, expected 1 to 4096");
     }
     is_binary_ = is_binary;
     count_ = static_cast<std::uint32_t>(count);
@@ -185,8 +184,8 @@ class DescriptorTextReader {
     std::uint32_t number = 0;
     const char* const p = scanUnsigned(range.begin, range.end, 100000, number);
     if (p == nullptr || number != expected || (p != range.end && !isSpace(*p))) {
-      fail(range.begin, std::string(what) + " " + std::to_string(expected) +
-                            ", as in the first descriptor");
+      fail(range.begin,
+           std::string(what) + " " + std::to_string(expected) + ", as in the first descriptor");
     }
     return skipSpace(p, range.end);
   }

@@ -91,8 +91,8 @@ class Dbow3BinaryReader {
     std::uint32_t& known = data_.words[index_of_[id]];
     if (known != kNone) bytes_.fail(offset + 4, node + " has two words");
     if (word >= data_.ids.size()) {
-      bytes_.fail(offset, "there are not as many nodes as the word " + std::to_string(word) +
-                              " needs");
+      bytes_.fail(offset,
+                  "there are not as many nodes as the word " + std::to_string(word) + " needs");
     }
     known = word;
   }

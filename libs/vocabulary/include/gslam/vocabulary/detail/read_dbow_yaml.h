@@ -189,8 +189,9 @@ class DbowYamlReader {
   void readField() {
     static const char* const names[] = {"k", "L", "scoringType", "weightingType", "nodes", "words"};
     const char* const at = cursor_.at();
-    const std::size_t field = cursor_.readName(names, "k, L, scoringType, weightingType, nodes, "
-                                                      "words or the end of the file");
+    const std::size_t field = cursor_.readName(names,
+                                               "k, L, scoringType, weightingType, nodes, "
+                                               "words or the end of the file");
     mark(fields_, field, at);
     switch (field) {
       case 0:
@@ -219,8 +220,8 @@ class DbowYamlReader {
     for (cursor_.skipSpace(); cursor_.take("-"); cursor_.skipSpace()) readNode();
     if (data_.ids.empty()) cursor_.failExpected("'-' and a node");
     data_.format = descriptors_.format();
-    index_of_ = indexOfIds(
-        data_, [this](std::size_t i, const std::string& what) { failNode(i, what); });
+    index_of_ =
+        indexOfIds(data_, [this](std::size_t i, const std::string& what) { failNode(i, what); });
     data_.words.assign(data_.ids.size(), kNone);
   }
 

@@ -39,7 +39,8 @@ class OrbTextReader {
     data_.format.size = countBytes();
     const std::vector<std::size_t> firsts = firstNodes(options);
     allocate(firsts.back());
-    parallelFor(0, firsts.size() - 1, [&](std::size_t i) { readPiece(i, firsts); }, options);
+    parallelFor(
+        0, firsts.size() - 1, [&](std::size_t i) { readPiece(i, firsts); }, options);
     numberWords();
     return std::move(data_);
   }
@@ -111,15 +112,18 @@ class OrbTextReader {
   std::vector<std::size_t> firstNodes(const ParallelOptions& options) const {
     const std::size_t count = bodySize() / piece_ + 1;
     std::vector<std::size_t> firsts(count + 1);
-    parallelFor(0, count, [&](std::size_t i) {
-      // A node begins behind each end of a line, of which one is in front of the body.
-      const char* p = pieceBegin(i) - 1;
-      const char* const end = std::max(p, pieceBegin(i + 1) - 1);
-      while ((p = VocabularyText::findNewline(p, end)) != nullptr) {
-        ++p;
-        ++firsts[i + 1];
-      }
-    }, options);
+    parallelFor(
+        0, count,
+        [&](std::size_t i) {
+          // A node begins behind each end of a line, of which one is in front of the body.
+          const char* p = pieceBegin(i) - 1;
+          const char* const end = std::max(p, pieceBegin(i + 1) - 1);
+          while ((p = VocabularyText::findNewline(p, end)) != nullptr) {
+            ++p;
+            ++firsts[i + 1];
+          }
+        },
+        options);
     for (std::size_t i = 0; i < count; ++i) firsts[i + 1] += firsts[i];
     return firsts;
   }

@@ -85,11 +85,11 @@ class OrbTextOrder {
     for (std::uint32_t at = first; at <= i; ++at) {
       if (is_placed_[at]) continue;
       if (at != i && data_.words[at] != kNone) {
-        throw ArgumentError(
-            "vocabulary",
-            "cannot be written as ORB-SLAM's text: node " + std::to_string(data_.ids[at]) +
-                " comes before its sibling " + std::to_string(data_.ids[i]) +
-                ", but its word comes later, and lines have but one order");
+        throw ArgumentError("vocabulary",
+                            "cannot be written as ORB-SLAM's text: node " +
+                                std::to_string(data_.ids[at]) + " comes before its sibling " +
+                                std::to_string(data_.ids[i]) +
+                                ", but its word comes later, and lines have but one order");
       }
       is_placed_[at] = true;
       order_.push_back(at);
