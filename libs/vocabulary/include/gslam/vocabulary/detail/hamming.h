@@ -167,43 +167,66 @@ inline void chooseBinaryAvx2(const DescriptorFormat&, std::size_t stride, const 
 
 GSLAM_TARGET_END
 
-// The same twice: with an instruction that counts bits, and without.
+// The same twice: with an instruction that counts bits, and without. Rows of 32 bytes are taken by
+// ten: each half of a register is a row, and five registers hold the bits of rows 0 2 4 6 8 and
+// 1 3 5 7 9, which are added up side by side, in 12 bits each.
 #define GSLAM_DETAIL_CHOOSE_AVX512(name)                                                           \
-  /* Distances of up to 8 rows of 32 bytes; those that are not there are all ones. Each half of a  \
-   */                                                                                              \
-  /* register is a row: four registers hold the bits of 0 2 4 6 and of 1 3 5 7 side by side. */    \
-  inline __m128i distances32##name(__m512i query, const std::uint8_t* rows, std::uint32_t count) { \
-    const auto words =                                                                             \
-        static_cast<std::uint32_t>(_bzhi_u32(0xFFFFFFFFu, std::min(count, 8u) * 4));               \
+  inline __m512i countDifference##name(__m512i query, const std::uint8_t* rows) {                  \
+    return countBits512##name(_mm512_xor_si512(query, _mm512_loadu_si512(rows)));                  \
+  }                                                                                                \
+  inline __m512i countTen##name(__m512i query, const std::uint8_t* rows) {                         \
+    const __m512i a = countDifference##name(query, rows);                                          \
+    const __m512i b = _mm512_slli_epi64(countDifference##name(query, rows + 64), 12);              \
+    const __m512i c = _mm512_slli_epi64(countDifference##name(query, rows + 128), 24);             \
+    const __m512i d = _mm512_slli_epi64(countDifference##name(query, rows + 192), 36);             \
+    const __m512i e = _mm512_slli_epi64(countDifference##name(query, rows + 256), 48);             \
+    return _mm512_add_epi64(_mm512_add_epi64(_mm512_add_epi64(a, b), _mm512_add_epi64(c, d)), e);  \
+  }                                                                                                \
+  inline __m512i countRest##name(__m512i query, const std::uint8_t* rows, std::uint32_t count) {   \
     __m512i sums = _mm512_setzero_si512();                                                         \
-    for (int j = 0; j < 4; ++j) {                                                                  \
-      const auto mask = static_cast<__mmask8>(words >> (8 * j));                                   \
-      const __m512i row = _mm512_maskz_loadu_epi64(mask, rows + 64 * j);                           \
+    for (std::uint32_t at = 0; at < count; at += 2) {                                              \
+      const __mmask8 mask = at + 1 < count ? 0xFF : 0x0F;                                          \
+      const __m512i row = _mm512_maskz_loadu_epi64(mask, rows + std::size_t(at) * 32);             \
       const __m512i bits = countBits512##name(_mm512_xor_si512(row, query));                       \
-      sums = _mm512_add_epi64(sums, _mm512_slli_epi64(bits, static_cast<unsigned>(16 * j)));       \
+      sums = _mm512_add_epi64(sums, _mm512_sll_epi64(bits, _mm_cvtsi32_si128(int(at * 6))));       \
     }                                                                                              \
+    return sums;                                                                                   \
+  }                                                                                                \
+  /* Rows that are not there are farther than any. */                                              \
+  inline __m512i keysOf##name(__m512i sums, std::uint32_t count) {                                 \
     sums = _mm512_add_epi64(sums, _mm512_permutex_epi64(sums, 0xB1));                              \
     sums = _mm512_add_epi64(sums, _mm512_permutex_epi64(sums, 0x4E));                              \
-    return _mm_unpacklo_epi64(_mm512_castsi512_si128(sums), _mm512_extracti64x2_epi64(sums, 2));   \
+    const __m512i low = _mm512_setr_epi64(0, 2, 4, 6, 1, 3, 5, 7);                                 \
+    const __m512i high = _mm512_setr_epi64(8, 8, 8, 8, 9, 9, 9, 9);                                \
+    const __m512i distances =                                                                      \
+        _mm512_and_si512(_mm512_srlv_epi64(sums, _mm512_setr_epi64(0, 12, 24, 36, 0, 12, 24, 36)), \
+                         _mm512_set1_epi64(0xFFF));                                                \
+    __m512i keys = _mm512_or_si512(_mm512_slli_epi64(distances, kIndexBits), low);                 \
+    __m512i last =                                                                                 \
+        _mm512_or_si512(_mm512_slli_epi64(_mm512_srli_epi64(sums, 48), kIndexBits), high);         \
+    if (count < 10) {                                                                              \
+      const __m512i end = _mm512_set1_epi64(count);                                                \
+      const __m512i far = _mm512_set1_epi64(0xFFFF);                                               \
+      keys = _mm512_mask_mov_epi64(far, _mm512_cmplt_epi64_mask(low, end), keys);                  \
+      last = _mm512_mask_mov_epi64(far, _mm512_cmplt_epi64_mask(high, end), last);                 \
+    }                                                                                              \
+    return _mm512_min_epu64(keys, last);                                                           \
   }                                                                                                \
-  inline __m128i keys32##name(__m512i query, const Visit& visit, std::uint32_t begin) {            \
-    const __m128i order = _mm_setr_epi16(0, 2, 4, 6, 1, 3, 5, 7);                                  \
-    const std::uint32_t count = visit.count - begin;                                               \
-    const __m128i distances = distances32##name(query, visit.rows + begin * 32, count);            \
-    const __m128i indices = _mm_add_epi16(order, _mm_set1_epi16(static_cast<short>(begin)));       \
-    const __m128i keys = _mm_or_si128(_mm_slli_epi16(distances, kIndexBits), indices);             \
-    const __mmask8 is_there =                                                                      \
-        _mm_cmplt_epi16_mask(order, _mm_set1_epi16(static_cast<short>(std::min(count, 8u))));      \
-    return _mm_mask_mov_epi16(_mm_set1_epi16(-1), is_there, keys);                                 \
+  inline __m512i keysOfSome##name(__m512i query, const std::uint8_t* rows, std::uint32_t count) {  \
+    if (count >= 10) return keysOf##name(countTen##name(query, rows), 10);                         \
+    return keysOf##name(countRest##name(query, rows, count), count);                               \
   }                                                                                                \
   inline std::uint32_t nearest32##name(const Visit& visit) {                                       \
     const __m512i query =                                                                          \
         _mm512_broadcast_i64x4(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(visit.query))); \
-    __m128i keys = keys32##name(query, visit, 0);                                                  \
-    for (std::uint32_t begin = 8; begin < visit.count; begin += 8) {                               \
-      keys = _mm_min_epu16(keys, keys32##name(query, visit, begin));                               \
+    __m512i keys = keysOfSome##name(query, visit.rows, visit.count);                               \
+    for (std::uint32_t begin = 10; begin < visit.count; begin += 10) {                             \
+      const __m512i more =                                                                         \
+          keysOfSome##name(query, visit.rows + std::size_t(begin) * 32, visit.count - begin);      \
+      keys = _mm512_min_epu64(keys, _mm512_add_epi64(more, _mm512_set1_epi64(begin)));             \
     }                                                                                              \
-    return static_cast<std::uint32_t>(_mm_cvtsi128_si32(_mm_minpos_epu16(keys))) & 0xFFFFu;        \
+    const __m128i nearest = _mm_minpos_epu16(_mm512_cvtepi64_epi16(keys));                         \
+    return static_cast<std::uint32_t>(_mm_cvtsi128_si32(nearest)) & 0xFFFFu;                       \
   }                                                                                                \
   inline std::uint32_t distance##name(const std::uint8_t* a, const std::uint8_t* b,                \
                                       std::size_t stride) {                                        \

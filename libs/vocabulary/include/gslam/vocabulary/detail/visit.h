@@ -31,7 +31,7 @@ using ChooseFunction = void (*)(const DescriptorFormat& format, std::size_t stri
                                 const Visit* visits, std::size_t count, Choice* choices);
 
 // How many visits ahead rows are fetched into the cache.
-constexpr std::size_t kFetchAhead = 6;
+constexpr std::size_t kFetchAhead = 8;
 
 inline void fetchRows(const Visit& visit, std::size_t stride) noexcept {
 #if defined(__GNUC__) || defined(__clang__)
