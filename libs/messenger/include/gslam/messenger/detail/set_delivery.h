@@ -2,6 +2,7 @@
 #ifndef GSLAM_MESSENGER_DETAIL_SET_DELIVERY_H
 #define GSLAM_MESSENGER_DETAIL_SET_DELIVERY_H
 
+#include <gslam/base/detail/indices.h>
 #include <gslam/messenger/detail/error_sink.h>
 #include <gslam/messenger/detail/matcher.h>
 
@@ -125,16 +126,6 @@ class SetDelivery {
   std::array<std::uint64_t, Topics> dropped_ = {{0}};  // by topic
   bool is_calling_ = false;
   bool is_ended_ = false;
-};
-
-/// 0, 1, ... as template arguments; the standard library has it from C++14 on.
-template <std::size_t... Is>
-struct Indices {};
-template <std::size_t N, std::size_t... Is>
-struct MakeIndices : MakeIndices<N - 1, N - 1, Is...> {};
-template <std::size_t... Is>
-struct MakeIndices<0, Is...> {
-  using Type = Indices<Is...>;
 };
 
 /// Calls a function that takes `const Ts&...` or `std::shared_ptr<const Ts>...`.

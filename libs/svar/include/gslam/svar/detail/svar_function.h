@@ -4,6 +4,7 @@
 #ifndef GSLAM_SVAR_DETAIL_SVAR_FUNCTION_H
 #define GSLAM_SVAR_DETAIL_SVAR_FUNCTION_H
 
+#include <gslam/base/detail/indices.h>
 #include <gslam/svar/detail/svar_traits.h>
 
 namespace gslam {
@@ -61,7 +62,7 @@ class SvarCallable : public SvarFunction {
 
   Svar call(Span<const Svar> args) override {
     if (args.size() != sizeof...(P)) failCount(args.size());
-    return callWith(args, typename CountUp<sizeof...(P)>::type(), std::is_void<R>());
+    return callWith(args, typename MakeIndices<sizeof...(P)>::Type(), std::is_void<R>());
   }
 
   std::string signature() const override {

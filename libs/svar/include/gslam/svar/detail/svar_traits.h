@@ -4,6 +4,7 @@
 #ifndef GSLAM_SVAR_DETAIL_SVAR_TRAITS_H
 #define GSLAM_SVAR_DETAIL_SVAR_TRAITS_H
 
+#include <gslam/base/detail/indices.h>
 #include <gslam/svar/detail/svar_parts.h>
 
 #include <array>
@@ -214,7 +215,7 @@ struct TupleParts {
 /// std::array, std::pair and std::tuple: arrays of exactly that size.
 template <class T>
 struct SvarTraits<T, typename std::enable_if<detail::IsTuple<T>::value>::type> {
-  using Indices = typename detail::CountUp<std::tuple_size<T>::value>::type;
+  using Indices = typename detail::MakeIndices<std::tuple_size<T>::value>::Type;
   /// "array of 3"
   static std::string name() { return "array of " + std::to_string(std::tuple_size<T>::value); }
   /// An array.

@@ -96,16 +96,6 @@ template <class T>
 struct IsOptional<T, Void<decltype(std::declval<const T&>().has_value()),
                           decltype(std::declval<const T&>().value())>> : std::true_type {};
 
-/// 0, 1, 2... as a pack (std::index_sequence of C++14).
-template <std::size_t... I>
-struct Indices {};
-template <std::size_t count, std::size_t... I>
-struct CountUp : CountUp<count - 1, count - 1, I...> {};
-template <std::size_t... I>
-struct CountUp<0, I...> {
-  using type = Indices<I...>;
-};
-
 }  // namespace detail
 }  // namespace v1
 }  // namespace gslam
