@@ -201,8 +201,9 @@ TEST(dbow_yaml, errors_name_the_line_and_the_column) {
             "toy.yml:19:21: the node 5 is not there");
   EXPECT_EQ(errorOf(replaced("parentId:1, ", "")),
             "toy.yml:14:31: expected nodeId, parentId, weight and descriptor, got '}'");
-  EXPECT_EQ(errorOf(replaced("parentId:1", "nodeId:1")), "toy.yml:13:21: is there twice");
-  EXPECT_EQ(errorOf(replaced("   L: 2\n", "   k: 2\n")), "toy.yml:5:4: is there twice");
+  EXPECT_EQ(errorOf(replaced("parentId:1", "nodeId:1")),
+            "toy.yml:13:21: this field is there twice");
+  EXPECT_EQ(errorOf(replaced("   L: 2\n", "   k: 2\n")), "toy.yml:5:4: this field is there twice");
   EXPECT_EQ(errorOf(replaced("   L: 2\n", "   M: 2\n")),
             "toy.yml:5:4: expected k, L, scoringType, weightingType, nodes, words or the end of "
             "the file, got 'M:'");

@@ -146,7 +146,7 @@ TEST(gzip, without_its_header_the_answer_names_it) {
 }
 
 std::string fileOf(const std::string& bytes) {
-  const std::string path = testing::TempDir() + "gzip_test.any";
+  std::string path = testing::TempDir() + "gzip_test.any";
   std::ofstream(path, std::ios::binary) << bytes;
   return path;
 }

@@ -1,4 +1,6 @@
 // What cv::FileStorage writes today, by the calls with which DBoW2 and DBoW3 save.
+#ifdef GSLAM_HAS_OPENCV
+
 #include <gslam/vocabulary/load.h>
 #include <gtest/gtest.h>
 
@@ -72,3 +74,5 @@ TEST(opencv_yaml, weights_that_are_no_numbers_are_refused_in_leaves_alone) {
 }
 
 }  // namespace
+
+#endif  // GSLAM_HAS_OPENCV

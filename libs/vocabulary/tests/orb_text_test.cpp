@@ -43,7 +43,7 @@ std::string fileText(const std::string& path) {
 std::string save(const Vocabulary& vocabulary) {
   const std::string path = testing::TempDir() + "orb_text_test.txt";
   gslam::saveOrbSlamText(vocabulary, path);
-  const std::string text = fileText(path);
+  std::string text = fileText(path);
   std::remove(path.c_str());
   return text;
 }

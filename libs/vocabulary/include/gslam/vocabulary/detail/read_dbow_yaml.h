@@ -153,9 +153,9 @@ class DbowYamlReader {
     static const char* const name[] = {"vocabulary"};
     cursor_.readName(name, "'vocabulary'");
     while (!isOver()) readField();
-    static const char* const names[] = {"k", "L", "scoringType", "weightingType", "nodes", "words"};
     for (unsigned i = 0; i < 6; ++i) {
-      if ((fields_ & 1U << i) == 0) cursor_.failExpected("the field " + std::string(names[i]));
+      if ((fields_ & 1U << i) == 0)
+        cursor_.failExpected("the field " + std::string(fieldNames()[i]));
     }
     dropInnerWeights(data_);
     if (hasPlainIds()) data_.ids.clear();
@@ -163,6 +163,11 @@ class DbowYamlReader {
   }
 
  private:
+  static const char* const (&fieldNames())[6] {
+    static const char* const names[] = {"k", "L", "scoringType", "weightingType", "nodes", "words"};
+    return names;
+  }
+
   // Of FileStorage: int.
   static std::uint32_t largestId() noexcept { return 0x7FFFFFFF; }
 
@@ -182,14 +187,13 @@ class DbowYamlReader {
 
   // Marks a field as read.
   void mark(unsigned& fields, std::size_t field, const char* at) const {
-    if ((fields & 1U << field) != 0) text_.fail(at, "is there twice");
+    if ((fields & 1U << field) != 0) text_.fail(at, "this field is there twice");
     fields |= 1U << field;
   }
 
   void readField() {
-    static const char* const names[] = {"k", "L", "scoringType", "weightingType", "nodes", "words"};
     const char* const at = cursor_.at();
-    const std::size_t field = cursor_.readName(names,
+    const std::size_t field = cursor_.readName(fieldNames(),
                                                "k, L, scoringType, weightingType, nodes, "
                                                "words or the end of the file");
     mark(fields_, field, at);

@@ -97,7 +97,7 @@ class OrbTextReader {
       while (p != end_ && !isSpace(*p)) ++p;
     }
     if (count < 4 || count > 3 + 4096) {
-      text_.fail(body_, "has " + std::to_string(count) +
+      text_.fail(body_, "the first node has " + std::to_string(count) +
                             " numbers, expected a parent, 0 or 1, 1 to 4096 bytes and a weight");
     }
     return static_cast<std::uint32_t>(count - 3);
@@ -147,7 +147,7 @@ class OrbTextReader {
       if (newline == nullptr || static_cast<std::size_t>(line_end - p) < least) break;
       p = newline + 1;
     }
-    text_.fail(p, "is too short for a node with a descriptor of " +
+    text_.fail(p, "the line is too short for a node with a descriptor of " +
                       std::to_string(data_.format.size) + " bytes");
   }
 
