@@ -29,7 +29,8 @@ struct MonitorOptions {
   double most_overhead = 0.005;     ///< of one core, for all samples together
   std::size_t most_samples = 4096;  ///< that are kept; when as many are there, every other one goes
   std::string proc = "/proc";       ///< of the load of cores
-  std::string sys = "/sys";         ///< of energy and GPUs
+  std::string nvml = "libnvidia-ml.so.1";  ///< NVIDIA's library, of GPUs; loaded where there is one
+  std::string sys = "/sys";                ///< of energy and GPUs
 };
 
 /// What was used around one time.

@@ -1,0 +1,203 @@
+// A program whose cost is known:
+//
+//   spender blocks N SIZE T   makes N blocks on each of T threads, and frees half of them
+//   spender burn SECONDS T    CPU time, on each of T threads
+//   spender touch MB          writes to so much memory
+//   spender children N S      starts N processes, one after the other, that burn S seconds each
+//   spender ignored N S       the same, but is not told of their ends
+//   spender orphan S          a child's child that burns S seconds and lives on without its parent
+//   spender switch N          waits N times
+//   spender affinity          prints the cores that it may run on
+//   spender demand MB         prints whether it gets so much memory
+//   spender exec ...          a forked child, not another program, counts on
+//
+// It says "ready" and waits for a line, spends, and says "done" with what its own count of
+// allocations is, and waits for the end of its input. An isolation worker, it has a SLAM system
+// "spender" that spends on each frame what its parameters say.
+#include <gslam/core/isolation_worker.h>
+#include <gslam/evaluation/allocation_counts.h>
+#include <gslam/evaluation/limits.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace {
+
+double threadSeconds() {
+  timespec time = {};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+}
+
+void burn(double seconds) {
+  const double end = threadSeconds() + seconds;
+  volatile double sum = 0;
+  while (threadSeconds() < end) {
+    for (int i = 0; i < 1000; ++i) sum = sum + 1.0 / (i + 1);
+  }
+}
+
+// The blocks stand in memory that is no block, so that their number is all there is to count.
+constexpr int kMostBlocks = 1 << 20;
+void* blocks[kMostBlocks];
+
+void makeBlocks(int begin, int count, std::size_t size) {
+  for (int i = begin; i < begin + count; ++i) {
+    blocks[i] = std::malloc(size);
+    static_cast<volatile char*>(blocks[i])[0] = 1;
+  }
+  for (int i = begin; i < begin + count; i += 2) std::free(blocks[i]);
+}
+
+void onThreads(int count, const std::function<void(int)>& work) {
+  std::vector<std::thread> threads;
+  for (int i = 0; i < count; ++i) threads.emplace_back(work, i);
+  for (std::thread& thread : threads) thread.join();
+}
+
+void childrenThatBurn(int count, double seconds) {
+  for (int i = 0; i < count; ++i) {
+    const pid_t child = fork();
+    if (child == 0) {
+      burn(seconds);
+      _exit(0);
+    }
+    while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
+}
+
+void orphan(double seconds) {
+  int ends[2];
+  if (pipe(ends) != 0) return;
+  const pid_t child = fork();
+  if (child == 0) {
+    if (fork() == 0) {
+      usleep(300000);  // until somebody saw it
+      burn(seconds);
+      usleep(300000);
+      _exit(0);
+    }
+    usleep(200000);
+    _exit(0);
+  }
+  close(ends[1]);
+  waitpid(child, nullptr, 0);
+  char byte = 0;
+  while (read(ends[0], &byte, 1) < 0) {  // until the child's child has ended, too
+  }
+}
+
+class SpenderSlam : public gslam::Slam {
+ public:
+  void configure(const gslam::SlamSetup& setup) override {
+    pose_ = setup.messenger.advertise<gslam::TrackedPose>("pose");
+    blocks_ = setup.parameters["blocks"].as<int>();
+    seconds_ = setup.parameters["seconds"].as<double>();
+  }
+  void feed(const std::shared_ptr<const gslam::Frame>& frame) override {
+    makeBlocks(0, blocks_, 100);
+    burn(seconds_);
+    for (int i = 1; i < blocks_; i += 2) std::free(blocks[i]);
+    pose_.publish({frame->id, frame->stamp, gslam::SE3d(), gslam::TrackingState::tracking});
+  }
+  std::shared_ptr<const gslam::Map> map() override { return nullptr; }
+  void finish() override {}
+
+ private:
+  gslam::Publisher<gslam::TrackedPose> pose_;
+  int blocks_ = 0;
+  double seconds_ = 0;
+};
+
+void addSlam(gslam::Plugins& plugins) {
+  gslam::SlamFactory factory;
+  factory.name = "spender";
+  factory.parameters = gslam::Svar::object({{"blocks", 0}, {"seconds", 0.0}});
+  factory.make = [] { return std::unique_ptr<gslam::Slam>(new SpenderSlam); };
+  plugins.add(factory);
+}
+
+std::string number(int argc, char** argv, int i) {
+  return i < argc ? argv[i] : "1";
+}
+
+int runCommand(int argc, char** argv) {
+  const std::string command = argv[1];
+  const int first = std::atoi(number(argc, argv, 2).c_str());
+  const double seconds = std::atof(number(argc, argv, command == "burn" ? 2 : 3).c_str());
+  const int third = std::atoi(number(argc, argv, 4).c_str());
+  const auto waitForLine = [] {
+    char byte = 0;
+    while (read(0, &byte, 1) == 1 && byte != '\n') {
+    }
+  };
+  std::setvbuf(stdout, nullptr, _IONBF, 0);
+  std::printf("ready\n");
+  waitForLine();
+  if (command == "blocks") {
+    const std::size_t size = std::size_t(std::atoi(number(argc, argv, 3).c_str()));
+    if (first * third > kMostBlocks) return 3;
+    if (third == 1) {
+      const gslam::AllocationCounts before = gslam::allocationCounts();
+      makeBlocks(0, first, size);
+      const gslam::AllocationCounts done =
+          gslam::allocatedBetween(before, gslam::allocationCounts());
+      std::printf("%d %llu %llu %llu %lld %lld\n", int(done.is_counted),
+                  static_cast<unsigned long long>(done.calls),
+                  static_cast<unsigned long long>(done.bytes),
+                  static_cast<unsigned long long>(done.frees),
+                  static_cast<long long>(done.live_blocks - before.live_blocks),
+                  static_cast<long long>(done.live_bytes - before.live_bytes));
+    } else {
+      onThreads(third, [&](int i) { makeBlocks(i * first, first, size); });
+    }
+  } else if (command == "burn") {
+    onThreads(std::atoi(number(argc, argv, 3).c_str()), [&](int) { burn(seconds); });
+  } else if (command == "touch") {
+    const std::size_t size = std::size_t(first) * 1000000;
+    char* const memory = static_cast<char*>(std::malloc(size));
+    std::memset(memory, 1, size);
+    std::printf("touched %d\n", int(memory[size - 1]));
+    waitForLine();
+    std::free(memory);
+  } else if (command == "children" || command == "ignored") {
+    if (command == "ignored") signal(SIGCHLD, SIG_IGN);
+    childrenThatBurn(first, seconds);
+  } else if (command == "orphan") {
+    orphan(std::atof(number(argc, argv, 2).c_str()));
+  } else if (command == "switch") {
+    for (int i = 0; i < first; ++i) usleep(100);
+  } else if (command == "affinity") {
+    for (const int cpu : gslam::cpuAffinity()) std::printf("%d ", cpu);
+    std::printf("\n");
+  } else if (command == "demand") {
+    const std::size_t size = std::size_t(first) * 1000000;
+    char* const memory = static_cast<char*>(std::malloc(size));
+    if (memory != nullptr) std::memset(memory, 1, size);
+    std::printf("%s\n", memory != nullptr ? "got" : "refused");
+    std::free(memory);
+  } else {
+    return 2;
+  }
+  std::printf("done\n");
+  waitForLine();
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (gslam::isIsolationWorker(argc, argv)) return gslam::runIsolationWorker(argc, argv, addSlam);
+  return argc < 2 ? 2 : runCommand(argc, argv);
+}
