@@ -1,4 +1,5 @@
-// Stands for NVIDIA's management library: two GPUs, of which the second has no memory that it tells.
+// Stands for NVIDIA's management library: two GPUs, of which the second has no memory that it
+// tells.
 extern "C" {
 
 struct Utilization {

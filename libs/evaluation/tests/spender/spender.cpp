@@ -8,20 +8,28 @@
 //   spender orphan S          a child's child that burns S seconds and lives on without its parent
 //   spender switch N          waits N times
 //   spender affinity          prints the cores that it may run on
+//   spender kinds             counts each way to get memory, and says what is expected
+//   spender fork N            makes N blocks in a forked child, and prints what that counted
+//   spender crowd T N         T threads at once, each of which makes and frees N blocks
+//   spender spawn N           has another spender make N blocks
 //   spender demand MB         prints whether it gets so much memory
-//   spender exec ...          a forked child, not another program, counts on
 //
 // It says "ready" and waits for a line, spends, and says "done" with what its own count of
 // allocations is, and waits for the end of its input. An isolation worker, it has a SLAM system
 // "spender" that spends on each frame what its parameters say.
+#include <fcntl.h>
 #include <gslam/core/isolation_worker.h>
 #include <gslam/evaluation/allocation_counts.h>
 #include <gslam/evaluation/limits.h>
+#include <malloc.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -96,6 +104,162 @@ void orphan(double seconds) {
   char byte = 0;
   while (read(ends[0], &byte, 1) < 0) {  // until the child's child has ended, too
   }
+}
+
+// What one way to get memory counts. The compiler may not leave out what looks useless.
+void count(const char* name, int calls, int frees, int bytes, void (*function)()) {
+  const gslam::AllocationCounts before = gslam::allocationCounts();
+  function();
+  const gslam::AllocationCounts done = gslam::allocatedBetween(before, gslam::allocationCounts());
+  std::printf("%s %d %d %d expected %d %d %d\n", name, int(done.calls), int(done.frees),
+              int(done.bytes), calls, frees, bytes);
+}
+
+void* volatile kept;
+
+void countKinds() {
+  struct alignas(128) Aligned {
+    char bytes[256];
+  };
+  count("malloc", 1, 1, 10, [] {
+    kept = std::malloc(10);
+    std::free(kept);
+  });
+  count("malloc_of_0", 1, 1, 0, [] {
+    kept = std::malloc(0);
+    std::free(kept);
+  });
+  count("free_of_null", 0, 0, 0, [] {
+    kept = nullptr;
+    std::free(kept);
+  });
+  count("calloc", 1, 1, 60, [] {
+    kept = std::calloc(3, 20);
+    if (static_cast<char*>(kept)[59] != 0) std::abort();
+    std::free(kept);
+  });
+  count("realloc", 3, 3, 10 + 10000 + 5, [] {
+    kept = std::realloc(nullptr, 10);
+    kept = std::realloc(kept, 10000);
+    kept = std::realloc(kept, 5);
+    std::free(kept);
+  });
+  count("realloc_to_0", 1, 1, 10, [] {
+    kept = std::malloc(10);
+    kept = std::realloc(kept, 0);
+    if (kept != nullptr) std::abort();
+  });
+  count("too_much", 1, 1, 10, [] {
+    volatile std::size_t size = std::size_t(1) << 62;
+    kept = std::malloc(size);
+    if (kept != nullptr) std::abort();
+    kept = std::calloc(size, 16);
+    if (kept != nullptr) std::abort();
+    void* volatile block = std::malloc(10);
+    kept = std::realloc(block, size);
+    if (kept != nullptr) std::abort();
+    std::free(block);  // is still there
+  });
+  count("aligned_alloc", 1, 1, 4096, [] {
+    kept = std::aligned_alloc(1024, 4096);
+    if (reinterpret_cast<std::uintptr_t>(kept) % 1024 != 0) std::abort();
+    std::free(kept);
+  });
+  count("aligned_to_3", 0, 0, 0, [] {
+    volatile std::size_t three = 3;
+    kept = std::aligned_alloc(three, 300);
+    if (kept != nullptr || errno != EINVAL) std::abort();
+  });
+  count("posix_memalign", 1, 1, 100, [] {
+    void* block = nullptr;
+    if (posix_memalign(&block, 64, 100) != 0) std::abort();
+    if (posix_memalign(&block, 4, 100) != EINVAL) std::abort();
+    kept = block;
+    if (reinterpret_cast<std::uintptr_t>(kept) % 64 != 0) std::abort();
+    std::free(kept);
+  });
+  count("memalign", 1, 1, 100, [] {
+    kept = memalign(256, 100);
+    std::free(kept);
+  });
+  count("valloc", 1, 1, 100, [] {
+    kept = valloc(100);
+    std::free(kept);
+  });
+  count("pvalloc", 1, 1, 100, [] {
+    kept = pvalloc(100);
+    std::free(kept);
+  });
+  count("reallocarray", 1, 1, 600, [] {
+    kept = reallocarray(nullptr, 30, 20);
+    std::free(kept);
+  });
+  count("strdup", 1, 1, 6, [] {
+    kept = strdup("hello");
+    std::free(kept);
+  });
+  count("new", 1, 1, 400, [] {
+    kept = new int[100];
+    delete[] static_cast<int*>(kept);
+  });
+  count("new_aligned", 1, 1, 256, [] {
+    kept = new Aligned;
+    delete static_cast<Aligned*>(kept);
+  });
+}
+
+void forkAndCount(int blocks_of_child) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const gslam::AllocationCounts before = gslam::allocationCounts();
+    makeBlocks(0, blocks_of_child, 100);
+    const gslam::AllocationCounts done = gslam::allocatedBetween(before, gslam::allocationCounts());
+    std::printf("child %d %d\n", int(done.is_counted), int(done.calls));
+    _exit(0);
+  }
+  waitpid(child, nullptr, 0);
+}
+
+// While one thread forks again and again.
+void crowd(int threads, int blocks_of_each) {
+  std::atomic<int> waiting(0);
+  std::atomic<bool> is_over(false);
+  std::thread forking([&] {
+    while (!is_over) {
+      const pid_t child = fork();
+      if (child == 0) {
+        kept = std::malloc(10);
+        std::free(kept);
+        _exit(0);
+      }
+      waitpid(child, nullptr, 0);
+    }
+  });
+  onThreads(threads, [&](int) {
+    ++waiting;
+    while (waiting < threads) usleep(1000);  // all have a place, or none
+    for (int i = 0; i < blocks_of_each; ++i) {
+      void* const block = std::malloc(std::size_t(100 + i));
+      static_cast<volatile char*>(block)[0] = 1;
+      std::free(block);
+    }
+  });
+  is_over = true;
+  forking.join();
+}
+
+void spawn(const char* program, int blocks_of_other) {
+  int out[2];
+  if (pipe(out) != 0) return;
+  const std::string number = std::to_string(blocks_of_other);
+  const pid_t child = fork();
+  if (child == 0) {
+    dup2(open("/dev/null", O_RDONLY), 0);
+    dup2(out[1], 1);
+    execl(program, program, "blocks", number.c_str(), "10", "1", nullptr);
+    _exit(1);
+  }
+  waitpid(child, nullptr, 0);
 }
 
 class SpenderSlam : public gslam::Slam {
@@ -181,6 +345,14 @@ int runCommand(int argc, char** argv) {
   } else if (command == "affinity") {
     for (const int cpu : gslam::cpuAffinity()) std::printf("%d ", cpu);
     std::printf("\n");
+  } else if (command == "kinds") {
+    countKinds();
+  } else if (command == "fork") {
+    forkAndCount(first);
+  } else if (command == "crowd") {
+    crowd(first, std::atoi(number(argc, argv, 3).c_str()));
+  } else if (command == "spawn") {
+    spawn(argv[0], first);
   } else if (command == "demand") {
     const std::size_t size = std::size_t(first) * 1000000;
     char* const memory = static_cast<char*>(std::malloc(size));
