@@ -29,12 +29,14 @@
 
 #include <atomic>
 #include <cerrno>
+#include <condition_variable>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
@@ -220,12 +222,14 @@ void forkAndCount(int blocks_of_child) {
   waitpid(child, nullptr, 0);
 }
 
-// While one thread forks again and again.
+// All at once, while others are forked.
 void crowd(int threads, int blocks_of_each) {
-  std::atomic<int> waiting(0);
+  std::mutex mutex;
+  std::condition_variable changed;
+  int waiting = 0;
   std::atomic<bool> is_over(false);
   std::thread forking([&] {
-    while (!is_over) {
+    for (int i = 0; i < 10 || !is_over; ++i) {
       const pid_t child = fork();
       if (child == 0) {
         kept = std::malloc(10);
@@ -233,11 +237,15 @@ void crowd(int threads, int blocks_of_each) {
         _exit(0);
       }
       waitpid(child, nullptr, 0);
+      usleep(20000);
     }
   });
   onThreads(threads, [&](int) {
-    ++waiting;
-    while (waiting < threads) usleep(1000);  // all have a place, or none
+    {
+      std::unique_lock<std::mutex> lock(mutex);
+      if (++waiting == threads) changed.notify_all();
+      changed.wait(lock, [&] { return waiting == threads; });  // all have a place, or none
+    }
     for (int i = 0; i < blocks_of_each; ++i) {
       void* const block = std::malloc(std::size_t(100 + i));
       static_cast<volatile char*>(block)[0] = 1;
