@@ -16,7 +16,9 @@
 
 #if defined(__linux__) && defined(__GLIBC__)
 extern "C" {
+// NOLINTNEXTLINE(readability-identifier-naming,bugprone-reserved-identifier)
 void* __libc_malloc(std::size_t);
+// NOLINTNEXTLINE(readability-identifier-naming,bugprone-reserved-identifier)
 void __libc_free(void*);
 }
 #define HAS_GLIBC 1

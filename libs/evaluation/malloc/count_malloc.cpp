@@ -27,6 +27,7 @@
 
 #include "../src/allocation_table.h"
 
+// NOLINTBEGIN(readability-identifier-naming,bugprone-reserved-identifier): names of the C library
 extern "C" {
 void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);
@@ -201,7 +202,7 @@ __attribute__((constructor)) void beginProgram() {
 
 extern "C" {
 
-__attribute__((used)) Table* gslam_allocation_table() noexcept {
+__attribute__((used)) Table* gslamAllocationTable() noexcept {
   return &table;
 }
 
@@ -259,5 +260,6 @@ void* pvalloc(std::size_t size) noexcept {
 }
 
 }  // extern "C"
+// NOLINTEND(readability-identifier-naming,bugprone-reserved-identifier)
 
 #endif

@@ -42,7 +42,7 @@ constexpr auto kRelaxed = std::memory_order_relaxed;
 std::atomic<const unsigned char*> shared_file(nullptr);
 
 const Table* ownTable() noexcept {
-  return &gslam_allocation_table != nullptr ? gslam_allocation_table() : nullptr;
+  return &gslamAllocationTable != nullptr ? gslamAllocationTable() : nullptr;
 }
 
 AllocationCounts countsOf(const Table& table) noexcept {

@@ -57,7 +57,7 @@ constexpr std::uint64_t kPending = 65536;
 }  // namespace gslam_allocations
 
 // Of this process; defined by the counting malloc(), and nowhere where that is not linked.
-extern "C" gslam_allocations::Table* gslam_allocation_table() noexcept
+extern "C" gslam_allocations::Table* gslamAllocationTable() noexcept
     __attribute__((weak, visibility("default")));
 
 #endif  // GSLAM_EVALUATION_SRC_ALLOCATION_TABLE_H

@@ -33,9 +33,9 @@ std::vector<double> CoreLoads::read() {
 }
 
 Rapl::Rapl(const std::string& sys) {
-  const std::string folder = sys + "/class/powercap";
+  const std::string folder = sys + "/class/powercap/";
   // Not intel-rapl-mmio, which shows the same package again.
-  for (const std::string& name : namesIn(folder, "intel-rapl:")) open(folder + '/' + name);
+  for (const std::string& name : namesIn(folder, "intel-rapl:")) open(folder + name);
   const bool has_package =
       std::any_of(zones_.begin(), zones_.end(), [](const Zone& zone) { return !zone.is_dram; });
   if (why_not_.empty() && !has_package) {
@@ -88,9 +88,10 @@ EnergyReport Rapl::report() const {
 }
 
 Gpus::Gpus(const std::string& sys, const std::string& nvml) {
-  const std::string folder = sys + "/class/drm";
+  const std::string folder = sys + "/class/drm/";
   for (const std::string& name : namesIn(folder, "card")) {
-    const std::string device = folder + '/' + name + "/device";
+    std::string device = folder;
+    device.append(name).append("/device");
     std::uint64_t value = 0;
     // card0-HDMI-A-1 and the like are outputs.
     if (name.find('-') == std::string::npos &&

@@ -152,7 +152,7 @@ TEST(MeasuredSlam, takesPosesThatComeLater) {
   EXPECT_FALSE(frames[0].has_result);
   EXPECT_TRUE(frames[1].has_result);
   EXPECT_GE(frames[1].wall_ms, 20);
-  EXPECT_LT(frames[1].feed_ms, 10);
+  EXPECT_GE(frames[1].wall_ms - frames[1].feed_ms, 20);
   EXPECT_GE(frames[1].cpu_ms, 20);  // of another thread of the process
   EXPECT_LT(frames[0].cpu_ms, 10);
 }
@@ -245,7 +245,7 @@ TEST(MeasuredSlam, isForThreads) {
 // With the queue inside, waiting in it is part of the time; with the queue around it, it is not.
 TEST(MeasuredSlam, worksInAndAroundASlamThread) {
   const auto slow = [](const Frame& fed, const gslam::Publisher<TrackedPose>& pose) {
-    wait(20);
+    wait(100);
     pose.publish(poseOf(fed.id));
   };
   MeasuredSlam around(
@@ -253,16 +253,16 @@ TEST(MeasuredSlam, worksInAndAroundASlamThread) {
   around.configure({});
   for (std::uint64_t id = 0; id < 3; ++id) around.feed(frame(id));
   around.finish();
-  EXPECT_GE(around.frames()[2].wall_ms, 55);
-  EXPECT_LT(around.frames()[2].feed_ms, 15);
+  EXPECT_GE(around.frames()[2].wall_ms, 250);
+  EXPECT_LT(around.frames()[2].feed_ms, 100);
 
   const auto inner = std::make_shared<MeasuredSlam>(std::make_shared<ToldSlam>(slow));
   gslam::SlamThread thread(inner, 3);
   thread.configure({});
   for (std::uint64_t id = 0; id < 3; ++id) thread.feed(frame(id));
   thread.finish();
-  EXPECT_GE(inner->frames()[2].wall_ms, 20);
-  EXPECT_LT(inner->frames()[2].wall_ms, 50);
+  EXPECT_GE(inner->frames()[2].wall_ms, 100);
+  EXPECT_LT(inner->frames()[2].wall_ms, 250);
 }
 
 TEST(MeasuredSlam, mayGoBeforeItsMessenger) {

@@ -291,7 +291,8 @@ TEST(ProcessUsage, measuresProgramsOfAnyName) {
   const ProcessUsage usage = tree.read();
   EXPECT_GE(usage.cpu_seconds, 0.1);
   EXPECT_LE(usage.cpu_seconds, 0.3);
-  EXPECT_EQ(usage.threads, 1u);
+  EXPECT_GE(usage.threads, 1u);
+  EXPECT_LE(usage.threads, 1u + spender::kOtherThreads);
 }
 
 TEST(ProcessUsage, measuresMemoryThatIsTouched) {
@@ -347,7 +348,8 @@ TEST(ProcessUsage, countsShortLivedChildrenOnce) {
     is_done = true;
     reader.join();
     const ProcessUsage used = gslam::usedBetween(before, tree.read());
-    EXPECT_GE(used.cpu_seconds, 0.36) << how;  // nobody is told of the last of what is ignored
+    // Nobody is told of what those who are ignored do after they were read last.
+    EXPECT_GE(used.cpu_seconds, std::string(how) == "ignored" ? 0.2 : 0.38) << how;
     EXPECT_LE(used.cpu_seconds, 0.55) << how;
     EXPECT_EQ(used.processes, 1u);
   }
@@ -359,9 +361,9 @@ TEST(ProcessUsage, keepsOrphans) {
   child.go();
   std::size_t most = 0;
   const auto begin = std::chrono::steady_clock::now();
-  while (spender::secondsSince(begin) < 0.28) {
+  while (most < 3 && spender::secondsSince(begin) < 5) {
     most = std::max(most, tree.read().processes);
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   EXPECT_EQ(most, 3u);
   double used = 0;

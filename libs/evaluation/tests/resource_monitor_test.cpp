@@ -62,7 +62,8 @@ TEST(ResourceMonitor, measuresAProgramOfKnownCost) {
   EXPECT_NEAR(report.cpu_percent, 100 * report.used.cpu_seconds / report.seconds, 1e-6);
   EXPECT_LE(report.cpu_percent, 210);
   EXPECT_GE(report.peak_cpu_percent, report.cpu_percent - 1);
-  EXPECT_EQ(report.most_threads, 3u);
+  EXPECT_GE(report.most_threads, 3u);
+  EXPECT_LE(report.most_threads, 3u + spender::kOtherThreads);
   EXPECT_EQ(report.most_processes, 1u);
   EXPECT_GT(report.samples_taken, 10u);
   EXPECT_EQ(report.samples.size(), report.samples_taken);

@@ -85,6 +85,9 @@ inline constexpr bool canCount() {
 #endif
 }
 
+// A sanitizer may have a thread of its own.
+constexpr std::size_t kOtherThreads = canCount() ? 0 : 1;
+
 }  // namespace spender
 
 #endif  // GSLAM_EVALUATION_TESTS_SPENDER_CHILD_H

@@ -1,5 +1,6 @@
 // Stands for NVIDIA's management library: two GPUs, of which the second has no memory that it
 // tells.
+// NOLINTBEGIN(readability-identifier-naming): names of NVIDIA's
 extern "C" {
 
 struct Utilization {
@@ -42,3 +43,4 @@ __attribute__((visibility("default"))) int nvmlDeviceGetMemoryInfo(void* device,
 }
 
 }  // extern "C"
+// NOLINTEND(readability-identifier-naming)
