@@ -8,7 +8,6 @@
 #include <iterator>
 #include <map>
 #include <mutex>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -164,24 +163,33 @@ class ProcessTree::Impl {
  private:
   static constexpr int kMostPasses = 4;
 
-  std::vector<long> parentsFirst() const {
-    std::vector<long> order;
-    std::set<long> done;
-    while (order.size() < processes_.size()) {
-      const std::size_t before = order.size();
+  // What is read again and again allocates nothing, so that it is not in counts of allocations.
+  const std::vector<long>& parentsFirst() {
+    const auto isIn = [this](long number) {
+      return std::find(order_.begin(), order_.end(), number) != order_.end();
+    };
+    order_.clear();
+    while (order_.size() < processes_.size()) {
+      const std::size_t before = order_.size();
       for (const auto& entry : processes_) {
         const long parent = long(entry.second.stat.parent);
-        const bool waits = processes_.count(parent) != 0 && done.count(parent) == 0;
-        if (done.count(entry.first) == 0 && !waits) order.push_back(entry.first);
+        const bool waits = processes_.count(parent) != 0 && !isIn(parent);
+        if (!waits && !isIn(entry.first)) order_.push_back(entry.first);
       }
-      if (order.size() == before) break;  // a circle: no real system
-      done.insert(order.begin() + std::ptrdiff_t(before), order.end());
+      if (order_.size() == before) break;  // a circle: no real system
     }
-    return order;
+    return order_;
   }
 
-  std::string pathOf(long process, const char* file) const {
-    return options_.proc + '/' + std::to_string(process) + file;
+  // A path, until the next call.
+  const std::string& pathOf(long process, const char* file) {
+    path_.assign(options_.proc).append("/").append(std::to_string(process)).append(file);
+    return path_;
+  }
+  const std::string& pathOf(long process, long thread, const char* file) {
+    pathOf(process, "/task/");
+    path_.append(std::to_string(thread)).append(file);
+    return path_;
   }
 
   void add(long number, const ProcStat& stat) {
@@ -200,25 +208,23 @@ class ProcessTree::Impl {
   // The system tells the children of each thread; where it does not (CONFIG_PROC_CHILDREN), all
   // processes are asked for their parents, as seldom as that takes long.
   void findDescendants() {
-    std::vector<long> open;
-    for (const auto& entry : processes_) open.push_back(entry.first);
+    open_.clear();
+    for (const auto& entry : processes_) open_.push_back(entry.first);
     bool is_told = true;
-    while (!open.empty()) {
-      const long parent = open.back();
-      open.pop_back();
-      std::vector<long> threads;
-      if (!detail::numbersIn(pathOf(parent, "/task"), threads)) continue;
-      for (const long thread : threads) {
-        const std::string path = pathOf(parent, "/task/") + std::to_string(thread) + "/children";
-        const int problem = detail::readFile(path, text_);
+    while (!open_.empty()) {
+      const long parent = open_.back();
+      open_.pop_back();
+      if (!detail::numbersIn(pathOf(parent, "/task"), threads_)) continue;
+      for (const long thread : threads_) {
+        const int problem = detail::readFile(pathOf(parent, thread, "/children"), text_);
         if (problem == ENOENT && thread == parent) is_told = false;  // its end is told by stat
-        if (problem == 0) takeChildren(open);
+        if (problem == 0) takeChildren();
       }
     }
     if (!is_told && now() >= next_scan_) scan();
   }
 
-  void takeChildren(std::vector<long>& open) {
+  void takeChildren() {
     std::vector<long> children;
     std::size_t at = 0;
     std::uint64_t number = 0;
@@ -227,7 +233,7 @@ class ProcessTree::Impl {
     for (const long child : children) {
       if (processes_.count(child) != 0 || !readStat(child, stat)) continue;
       add(child, stat);
-      open.push_back(child);
+      open_.push_back(child);
     }
   }
 
@@ -304,12 +310,10 @@ class ProcessTree::Impl {
         return;
       }
     }
-    std::vector<long> threads;
-    if (!detail::numbersIn(pathOf(number, "/task"), threads)) return;
+    if (!detail::numbersIn(pathOf(number, "/task"), threads_)) return;
     std::map<long, Switches> read;
-    for (const long thread : threads) {
-      const std::string path = pathOf(number, "/task/") + std::to_string(thread) + "/status";
-      if (detail::readFile(path, text_) != 0) continue;
+    for (const long thread : threads_) {
+      if (detail::readFile(pathOf(number, thread, "/status"), text_) != 0) continue;
       Switches& one = read[thread];
       one.voluntary = detail::numberOf(text_, "voluntary_ctxt_switches");
       one.involuntary = detail::numberOf(text_, "nonvoluntary_ctxt_switches");
@@ -369,12 +373,12 @@ class ProcessTree::Impl {
     ProcessUsage usage;
     usage.time = now();
     Totals totals = gone_;
-    std::vector<std::pair<clockid_t, std::int64_t>> clocks;
+    clocks_read_.clear();
     std::int64_t other_cpu = gone_.cpu;
     for (const auto& entry : processes_) {
       const Process& process = entry.second;
       totals.add(process.all());
-      if (process.has_clock) clocks.emplace_back(process.clock, process.own.cpu);
+      if (process.has_clock) clocks_read_.emplace_back(process.clock, process.own.cpu);
       other_cpu += process.reaped.cpu + (process.has_clock ? 0 : process.own.cpu);
       peak_of_one_ = std::max(peak_of_one_, process.peak);
       if (!process.lives) continue;
@@ -395,7 +399,7 @@ class ProcessTree::Impl {
     usage.minor_faults = most_.minor_faults;
     usage.major_faults = most_.major_faults;
     const std::lock_guard<std::mutex> lock(clock_mutex_);
-    clocks_ = std::move(clocks);
+    std::swap(clocks_, clocks_read_);
     other_cpu_ = other_cpu;
     last_cpu_ = std::max(last_cpu_, most_.cpu);
     return usage;
@@ -406,7 +410,9 @@ class ProcessTree::Impl {
   bool is_own_ = false;
   std::int64_t tick_ = 10000000;  // nanoseconds
   std::mutex mutex_;
-  std::string text_;  // of the file in work
+  std::string text_, path_;  // of the file in work
+  std::vector<long> order_, open_, threads_;
+  std::vector<std::pair<clockid_t, std::int64_t>> clocks_read_;
   std::map<long, Process> processes_;
   std::int64_t next_scan_ = 0;
   Totals gone_;

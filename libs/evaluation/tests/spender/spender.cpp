@@ -21,6 +21,7 @@
 #include <gslam/core/isolation_worker.h>
 #include <gslam/evaluation/allocation_counts.h>
 #include <gslam/evaluation/limits.h>
+#include <gslam/evaluation/process_usage.h>
 #include <malloc.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -210,6 +211,16 @@ void countKinds() {
   });
 }
 
+// Nor does measuring itself count, once it has its memory.
+void countReadings() {
+  static gslam::ProcessTree tree;
+  tree.read();
+  tree.read();
+  count("reading_a_process", 0, 0, 0, [] { tree.read(); });
+  count("reading_its_clock", 0, 0, 0, [] { tree.cpuTime(); });
+  count("counting", 0, 0, 0, [] { gslam::allocationCountsOf(0); });
+}
+
 void forkAndCount(int blocks_of_child) {
   const pid_t child = fork();
   if (child == 0) {
@@ -355,6 +366,7 @@ int runCommand(int argc, char** argv) {
     std::printf("\n");
   } else if (command == "kinds") {
     countKinds();
+    countReadings();
   } else if (command == "fork") {
     forkAndCount(first);
   } else if (command == "crowd") {
