@@ -305,8 +305,12 @@ TEST(ProcessUsage, measuresMemoryThatIsTouched) {
   child.go();
   EXPECT_EQ(child.line(), "done");
   const ProcessUsage after = tree.read();
-  EXPECT_NEAR(double(touched.rss_bytes - before.rss_bytes), 200e6, 4e6);
-  EXPECT_NEAR(double(touched.private_bytes - before.private_bytes), 200e6, 4e6);
+  // The thread sanitizer has four times as much beside it.
+  const double most = spender::canCount() ? 204e6 : 5 * 204e6;
+  EXPECT_GE(double(touched.rss_bytes - before.rss_bytes), 196e6);
+  EXPECT_LE(double(touched.rss_bytes - before.rss_bytes), most);
+  EXPECT_GE(double(touched.private_bytes - before.private_bytes), 196e6);
+  EXPECT_LE(double(touched.private_bytes - before.private_bytes), most);
   EXPECT_GE(touched.minor_faults - before.minor_faults, 90u);  // where pages are huge
   if (spender::canCount()) {                                   // a sanitizer gives nothing back
     EXPECT_LE(double(after.rss_bytes - before.rss_bytes), 4e6);
