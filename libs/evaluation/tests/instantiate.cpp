@@ -2,7 +2,9 @@
 // tests/headers.
 #include <gslam/evaluation.h>
 
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 std::string instantiateEvaluation(const gslam::Trajectory& reference,
@@ -27,4 +29,27 @@ std::string instantiateEvaluation(const gslam::Trajectory& reference,
          gslam::alignmentText(options.alignment) + std::to_string(sum) + alignment.reason +
          std::to_string(gslam::readKittiMatrices("none").size()) +
          std::to_string(gslam::evaluationToSvar(evaluation).size());
+}
+
+std::string instantiateCost(std::shared_ptr<gslam::Slam> slam);
+
+std::string instantiateCost(std::shared_ptr<gslam::Slam> slam) {
+  gslam::setCpuAffinity(gslam::parseCpuList("0"));
+  const gslam::MemoryLimit limit(gslam::parseMemorySize("4G"));
+  const bool is_counted = gslam::countAllocationsOfChildren();
+  const auto tree = std::make_shared<gslam::ProcessTree>();
+  gslam::MeasuredSlam measured(std::move(slam), {tree});
+  gslam::ResourceMonitor monitor(tree);
+  measured.noteDropped(1, 2);
+  const gslam::AllocationCounts before = gslam::allocationCounts();
+  gslam::CostSource source;
+  source.frames = measured.frames();
+  source.resources = monitor.stop();
+  source.allocations = gslam::allocatedBetween(before, gslam::allocationCountsOf(tree->root()));
+  const double used = gslam::usedBetween(tree->read(), tree->read()).cpu_seconds;
+  const gslam::Cost cost = gslam::costOf(std::move(source));
+  return limit.text() + gslam::whyNoAllocations() + gslam::costText(cost) +
+         gslam::frameTimesCsv(cost.source.frames) +
+         std::to_string(gslam::costToSvar(cost).size() + gslam::cpuAffinity().size()) +
+         std::to_string(used + double(tree->cpuTime())) + (is_counted ? "counted" : "not");
 }

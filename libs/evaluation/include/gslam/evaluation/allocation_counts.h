@@ -1,0 +1,65 @@
+#ifndef GSLAM_EVALUATION_ALLOCATION_COUNTS_H
+#define GSLAM_EVALUATION_ALLOCATION_COUNTS_H
+
+#include <gslam/evaluation/export.h>
+
+#include <cstdint>
+#include <string>
+
+/// @file
+/// What a program asks of malloc().
+///
+/// Counted only in programs that ask for it where they are linked:
+///
+///     target_link_libraries(my_program PRIVATE GSLAM::evaluation GSLAM::evaluation_malloc)
+///
+/// GSLAM::evaluation_malloc has a malloc(), calloc(), realloc(), free(), aligned_alloc(),
+/// memalign(), posix_memalign(), valloc() and pvalloc() that count and hand on to those of glibc;
+/// operator new and all libraries and plugins use them, too. A malloc/free pair takes about 10 ns
+/// longer. Not with a sanitizer, which has a malloc() of its own, nor with another C library.
+
+namespace gslam {
+inline namespace v1 {
+
+/// Blocks of memory since the begin of a process.
+///
+/// Thread-safety: plain data.
+struct AllocationCounts {
+  bool is_counted = false;       ///< otherwise all others are 0 and mean nothing
+  std::uint64_t calls = 0;       ///< that gave a block; a realloc() counts as one, and as a free
+  std::uint64_t bytes = 0;       ///< that these asked for
+  std::uint64_t frees = 0;       ///< of blocks
+  std::int64_t live_blocks = 0;  ///< not freed yet
+  std::int64_t live_bytes = 0;   ///< of these, as large as they are (malloc_usable_size())
+  std::int64_t peak_live_bytes = 0;  ///< most of it, to within 64 KiB for each thread
+};
+
+/// What was done from one count to a later one; what lives is as in the later.
+GSLAM_EVALUATION_EXPORT AllocationCounts allocatedBetween(const AllocationCounts& earlier,
+                                                          const AllocationCounts& later);
+
+/// Of this process alone. Thread-safe, allocates nothing, about 0.1 us; calls that other threads
+/// are in meanwhile may count or not.
+GSLAM_EVALUATION_EXPORT AllocationCounts allocationCounts() noexcept;
+
+/// Has the processes that this one starts from now on counted for allocationCountsOf(), where they
+/// are programs that count, such as an IsolatedSlam of a program that does: they inherit an open
+/// file, and its number in the environment (GSLAM_ALLOCATION_COUNTS). To be called before there are
+/// threads that may use the environment; again does nothing.
+/// @return whether it can be done: on Linux
+GSLAM_EVALUATION_EXPORT bool countAllocationsOfChildren();
+
+/// Of a process and all that descend from it, this one or one started after
+/// countAllocationsOfChildren(); those that ended count, what lived at their end lives, and the
+/// peak is the sum of their peaks. Descendants that do not count (another program) are not in it,
+/// nor what descends from such. Thread-safe, allocates nothing.
+/// @param process  its number; 0: this one
+GSLAM_EVALUATION_EXPORT AllocationCounts allocationCountsOf(long process) noexcept;
+
+/// Why allocations of this process are not counted, for reports; empty where they are.
+GSLAM_EVALUATION_EXPORT std::string whyNoAllocations();
+
+}  // namespace v1
+}  // namespace gslam
+
+#endif  // GSLAM_EVALUATION_ALLOCATION_COUNTS_H

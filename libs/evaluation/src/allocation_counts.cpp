@@ -1,0 +1,181 @@
+#include <gslam/evaluation/allocation_counts.h>
+
+#include <algorithm>
+
+#if defined(__linux__)
+#include <fcntl.h>
+#include <stdlib.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstddef>
+#include <mutex>
+
+#include "allocation_table.h"
+#endif
+
+namespace gslam {
+inline namespace v1 {
+
+AllocationCounts allocatedBetween(const AllocationCounts& earlier, const AllocationCounts& later) {
+  AllocationCounts done = later;
+  done.calls -= earlier.calls;
+  done.bytes -= earlier.bytes;
+  done.frees -= earlier.frees;
+  return done;
+}
+
+#if defined(__linux__)
+
+namespace {
+
+using gslam_allocations::FileHeader;
+using gslam_allocations::kTables;
+using gslam_allocations::Slot;
+using gslam_allocations::Table;
+
+constexpr auto kRelaxed = std::memory_order_relaxed;
+
+// The file that children inherit, mapped for good; null: there is none.
+std::atomic<const unsigned char*> shared_file(nullptr);
+
+const Table* ownTable() noexcept {
+  return &gslamAllocationTable != nullptr ? gslamAllocationTable() : nullptr;
+}
+
+AllocationCounts countsOf(const Table& table) noexcept {
+  AllocationCounts counts;
+  counts.is_counted = true;
+  std::uint64_t given = 0, taken = 0;
+  const std::size_t used = std::size_t(table.used_slots.load(std::memory_order_acquire));
+  for (std::size_t i = 0; i < std::min(used, gslam_allocations::kSlots); ++i) {
+    const Slot& slot = table.slots[i];
+    counts.calls += slot.calls.load(kRelaxed);
+    counts.bytes += slot.bytes.load(kRelaxed);
+    counts.frees += slot.frees.load(kRelaxed);
+    given += slot.given.load(kRelaxed);
+    taken += slot.taken.load(kRelaxed);
+  }
+  counts.live_blocks = std::int64_t(counts.calls - counts.frees);
+  counts.live_bytes = std::int64_t(given - taken);
+  counts.peak_live_bytes = std::max(std::int64_t(table.peak.load(kRelaxed)), counts.live_bytes);
+  return counts;
+}
+
+void add(AllocationCounts& sum, const AllocationCounts& more) noexcept {
+  sum.is_counted = true;
+  sum.calls += more.calls;
+  sum.bytes += more.bytes;
+  sum.frees += more.frees;
+  sum.live_blocks += more.live_blocks;
+  sum.live_bytes += more.live_bytes;
+  sum.peak_live_bytes += more.peak_live_bytes;
+}
+
+std::size_t tableCount(const unsigned char* file) noexcept {
+  const FileHeader* const header = reinterpret_cast<const FileHeader*>(file);
+  return std::size_t(std::min<std::uint64_t>(header->next.load(), kTables));
+}
+
+const Table& tableAt(const unsigned char* file, std::size_t index) noexcept {
+  return *reinterpret_cast<const Table*>(file + (index + 1) * sizeof(Table));
+}
+
+// Whether a process is, or descends from, another, as far as the tables tell.
+bool descends(const unsigned char* file, std::size_t count, std::size_t index,
+              std::uint64_t from) noexcept {
+  for (std::size_t depth = 0; depth < kTables; ++depth) {
+    const Table& table = tableAt(file, index);
+    const std::uint64_t parent = table.parent.load(kRelaxed);
+    if (table.process.load(kRelaxed) == from || parent == from) return true;
+    std::size_t i = 0;
+    while (i < count && tableAt(file, i).process.load(kRelaxed) != parent) ++i;
+    if (i == count || i == index) return false;
+    index = i;
+  }
+  return false;
+}
+
+// Makes the file and says in the environment where it is; null where that cannot be done.
+const unsigned char* makeSharedFile() {
+  const int made = ::memfd_create("gslam allocation counts", MFD_ALLOW_SEALING);
+  if (made < 0) return nullptr;
+  const int file = ::fcntl(made, F_DUPFD, 10);  // below are those that programs give children
+  ::close(made);
+  if (file < 0) return nullptr;
+  void* mapped = MAP_FAILED;
+  struct stat facts = {};
+  if (::ftruncate(file, off_t(gslam_allocations::kFileSize)) == 0 &&
+      ::fcntl(file, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW) == 0 && ::fstat(file, &facts) == 0) {
+    mapped =
+        ::mmap(nullptr, gslam_allocations::kFileSize, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  }
+  const std::string place = std::to_string(file) + ':' + std::to_string(facts.st_ino);
+  if (mapped == MAP_FAILED ||
+      ::setenv(gslam_allocations::kVariable, place.c_str(), 1) != 0) {  // NOLINT(concurrency-*)
+    if (mapped != MAP_FAILED) ::munmap(mapped, gslam_allocations::kFileSize);
+    ::close(file);
+    return nullptr;
+  }
+  static_cast<FileHeader*>(mapped)->magic.store(gslam_allocations::kMagic);
+  return static_cast<const unsigned char*>(mapped);
+}
+
+}  // namespace
+
+AllocationCounts allocationCounts() noexcept {
+  const Table* const table = ownTable();
+  return table != nullptr ? countsOf(*table) : AllocationCounts();
+}
+
+bool countAllocationsOfChildren() {
+  static std::mutex mutex;
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (shared_file.load() == nullptr) shared_file.store(makeSharedFile());
+  return shared_file.load() != nullptr;
+}
+
+AllocationCounts allocationCountsOf(long process) noexcept {
+  const long own = long(::getpid());
+  if (process == 0) process = own;
+  AllocationCounts sum;
+  if (process == own) sum = allocationCounts();
+  const unsigned char* const file = shared_file.load();
+  if (file == nullptr || process < 0) return sum;
+  const std::size_t count = tableCount(file);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Table& table = tableAt(file, i);
+    const std::uint64_t number = table.process.load(kRelaxed);
+    if (number == 0 || number == std::uint64_t(own)) continue;
+    if (descends(file, count, i, std::uint64_t(process))) add(sum, countsOf(table));
+  }
+  return sum;
+}
+
+std::string whyNoAllocations() {
+  if (ownTable() != nullptr) return "";
+  return "this program does not count them: it was not linked with GSLAM::evaluation_malloc, or "
+         "built with a sanitizer";
+}
+
+#else
+
+AllocationCounts allocationCounts() noexcept {
+  return {};
+}
+bool countAllocationsOfChildren() {
+  return false;
+}
+AllocationCounts allocationCountsOf(long) noexcept {
+  return {};
+}
+std::string whyNoAllocations() {
+  return "allocations are counted on Linux only";
+}
+
+#endif  // __linux__
+
+}  // namespace v1
+}  // namespace gslam

@@ -1,0 +1,237 @@
+#include <gslam/base/error.h>
+#include <gslam/evaluation/allocation_counts.h>
+#include <gslam/evaluation/frame_times.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <unordered_map>
+#include <utility>
+
+namespace gslam {
+inline namespace v1 {
+namespace {
+
+std::int64_t now() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+// Milliseconds with all digits of a nanosecond, whatever the locale.
+std::string milliseconds(double value) {
+  const long long nanoseconds = std::llround(1e6 * std::max(0.0, value));
+  const std::string digits = std::to_string(nanoseconds % 1000000);
+  return std::to_string(nanoseconds / 1000000) + '.' + std::string(6 - digits.size(), '0') + digits;
+}
+
+}  // namespace
+
+class MeasuredSlam::Impl {
+ public:
+  Impl(std::shared_ptr<Slam> slam, std::shared_ptr<ProcessTree> tree)
+      : slam_(std::move(slam)), tree_(std::move(tree)), start_(now()) {}
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  const std::shared_ptr<Slam>& slam() const { return slam_; }
+
+  void begin(Subscriber subscriber) {
+    subscriber_ = std::move(subscriber);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    start_ = now();
+  }
+  // No pose is noted after it.
+  void end() { subscriber_ = Subscriber(); }
+
+  void feed(const std::shared_ptr<const Frame>& frame) {
+    const std::size_t index = open(frame->id, frame->stamp);
+    const std::int64_t before = now();
+    try {
+      slam_->feed(frame);
+    } catch (...) {
+      close(index, before);
+      throw;
+    }
+    close(index, before);
+  }
+
+  void drop(std::uint64_t frame, std::int64_t stamp) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    FrameTime dropped;
+    dropped.frame = frame;
+    dropped.stamp = stamp;
+    dropped.delivered = now() - start_;
+    dropped.is_dropped = true;
+    entries_.push_back({dropped, 0, {}});
+  }
+
+  void take(const TrackedPose& pose) {
+    const std::int64_t time = now();
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto found = index_.find(pose.frame);
+    if (found == index_.end()) return;  // of no frame that was fed
+    Entry& entry = entries_[found->second];
+    if (entry.time.has_result) {
+      ++entry.time.corrections;
+      return;
+    }
+    entry.time.has_result = true;
+    entry.time.state = pose.state;
+    entry.time.wall_ms = 1e-6 * double(time - entry.begin);
+    charge(entry);
+  }
+
+  std::vector<FrameTime> frames() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    std::vector<FrameTime> frames;
+    frames.reserve(entries_.size());
+    for (const Entry& entry : entries_) frames.push_back(entry.time);
+    return frames;
+  }
+
+  void setSeconds(double Impl::*which, std::int64_t begin) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    this->*which = 1e-9 * double(now() - begin);
+  }
+  double seconds(double Impl::*which) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return this->*which;
+  }
+
+  double configure_seconds_ = 0, finish_seconds_ = 0;  // guarded by the mutex
+
+ private:
+  struct Meters {
+    std::int64_t cpu = 0;  // nanoseconds
+    std::uint64_t calls = 0, bytes = 0;
+  };
+  struct Entry {
+    FrameTime time;
+    std::int64_t begin;
+    Meters meters;  // at the begin
+  };
+
+  Meters read() const {
+    Meters meters;
+    const AllocationCounts counts = allocationCountsOf(tree_->root());
+    meters.calls = counts.calls;
+    meters.bytes = counts.bytes;
+    meters.cpu = tree_->cpuTime();
+    return meters;
+  }
+
+  // What this allocates itself comes before the meters are read.
+  std::size_t open(std::uint64_t frame, std::int64_t stamp) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    FrameTime time;
+    time.frame = frame;
+    time.stamp = stamp;
+    const std::size_t index = entries_.size();
+    entries_.push_back({time, 0, {}});
+    index_[frame] = index;
+    Entry& entry = entries_.back();
+    entry.meters = read();
+    entry.begin = now();
+    entry.time.delivered = entry.begin - start_;
+    return index;
+  }
+
+  void close(std::size_t index, std::int64_t before) {
+    const std::int64_t time = now();
+    const std::lock_guard<std::mutex> lock(mutex_);
+    entries_[index].time.feed_ms = 1e-6 * double(time - before);
+    charge(entries_[index]);
+  }
+
+  // Called at the pose and at the end of feed(), the later of which stays.
+  void charge(Entry& entry) const {
+    const Meters meters = read();
+    entry.time.cpu_ms = 1e-6 * double(meters.cpu - entry.meters.cpu);
+    entry.time.allocations = meters.calls - entry.meters.calls;
+    entry.time.allocated_bytes = meters.bytes - entry.meters.bytes;
+  }
+
+  const std::shared_ptr<Slam> slam_;
+  const std::shared_ptr<ProcessTree> tree_;
+  mutable std::mutex mutex_;
+  std::int64_t start_;
+  std::vector<Entry> entries_;
+  std::unordered_map<std::uint64_t, std::size_t> index_;  // of the last with a number
+  Subscriber subscriber_;
+};
+
+MeasuredSlam::MeasuredSlam(std::shared_ptr<Slam> slam, MeasureOptions options) {
+  if (!slam) throw ArgumentError("slam", "is null, expected a SLAM system");
+  if (!options.tree) options.tree = std::make_shared<ProcessTree>();
+  impl_ = std::make_shared<Impl>(std::move(slam), std::move(options.tree));
+}
+
+MeasuredSlam::~MeasuredSlam() {
+  impl_->end();
+}
+
+void MeasuredSlam::configure(const SlamSetup& setup) {
+  const std::weak_ptr<Impl> weak = impl_;
+  impl_->begin(setup.messenger.subscribe<TrackedPose>("pose", [weak](const TrackedPose& pose) {
+    if (const std::shared_ptr<Impl> impl = weak.lock()) impl->take(pose);
+  }));
+  const std::int64_t before = now();
+  impl_->slam()->configure(setup);
+  impl_->setSeconds(&Impl::configure_seconds_, before);
+}
+
+void MeasuredSlam::feed(const std::shared_ptr<const Frame>& frame) {
+  if (!frame) throw ArgumentError("frame", "is null, expected one to feed");
+  impl_->feed(frame);
+}
+
+std::shared_ptr<const Map> MeasuredSlam::map() {
+  return impl_->slam()->map();
+}
+
+void MeasuredSlam::finish() {
+  const std::int64_t before = now();
+  impl_->slam()->finish();
+  impl_->setSeconds(&Impl::finish_seconds_, before);
+}
+
+void MeasuredSlam::noteDropped(std::uint64_t frame, std::int64_t stamp) {
+  impl_->drop(frame, stamp);
+}
+std::vector<FrameTime> MeasuredSlam::frames() const {
+  return impl_->frames();
+}
+double MeasuredSlam::configureSeconds() const {
+  return impl_->seconds(&Impl::configure_seconds_);
+}
+double MeasuredSlam::finishSeconds() const {
+  return impl_->seconds(&Impl::finish_seconds_);
+}
+const std::shared_ptr<Slam>& MeasuredSlam::inside() const noexcept {
+  return impl_->slam();
+}
+
+std::string frameTimesCsv(const std::vector<FrameTime>& frames) {
+  std::string out =
+      "frame,stamp_ns,delivered_ns,dropped,wall_ms,feed_ms,cpu_ms,allocations,allocated_bytes,"
+      "state,corrections\n";
+  for (const FrameTime& f : frames) {
+    out += std::to_string(f.frame) + ',' + std::to_string(f.stamp) + ',' +
+           std::to_string(f.delivered) + ',' + (f.is_dropped ? "1," : "0,");
+    out += (f.has_result ? milliseconds(f.wall_ms) : "") + ',';
+    if (f.is_dropped) {
+      out += ",,,,,\n";
+      continue;
+    }
+    out += milliseconds(f.feed_ms) + ',' + milliseconds(f.cpu_ms) + ',' +
+           std::to_string(f.allocations) + ',' + std::to_string(f.allocated_bytes) + ',' +
+           (f.has_result ? trackingStateName(f.state) : "") + ',' + std::to_string(f.corrections) +
+           '\n';
+  }
+  return out;
+}
+
+}  // namespace v1
+}  // namespace gslam
