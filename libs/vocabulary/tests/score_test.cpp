@@ -176,7 +176,7 @@ Places placesByKernel(gslam::detail::FindCommon find, const BowVector& v, const 
   Places places;
   while (!lists.areDone()) {
     const std::size_t count = find(lists, found);
-    EXPECT_LE(count, gslam::detail::CommonWords::kCapacity);
+    EXPECT_LE(count, std::size_t(gslam::detail::CommonWords::kCapacity));
     for (std::size_t i = 0; i < count; ++i) places.emplace_back(found.in_a[i], found.in_b[i]);
   }
   return places;

@@ -31,7 +31,7 @@ struct WordLists {
 
 // Where words that are in both lists stand in each. Kernels write up to 8 places too far.
 struct CommonWords {
-  static constexpr std::size_t kCapacity = 256;
+  enum : std::size_t { kCapacity = 256 };  // needs no definition in C++11
   std::uint32_t in_a[kCapacity + 8];
   std::uint32_t in_b[kCapacity + 8];
 };
