@@ -35,12 +35,12 @@ inline namespace v1 {
 /// differ where a distance is rounded in another way.
 ///
 /// Descriptors are copied, and not changed. In memory there are then, of each, its bytes and 17
-/// more. From a source there may be more of them than fit: where they do not, the nodes at the top,
-/// with more than fit, are split by a random sample of what fits, and each of those below is
-/// trained on all of its descriptors, as many nodes in a pass as fit. That takes 3 passes over the
-/// images and one or two for each time that the descriptors fill options.memory. Where all fit it
-/// is the same as from memory, in 2 passes. Few nodes with very many equal or nearly equal
-/// descriptors may not fit either: they are trained on an even part of theirs.
+/// more. From a source there may be more of them than fit. Then nodes with more descriptors than
+/// fit are split by a random sample of as many as do, and what is below them is trained on all of
+/// its descriptors, as many nodes in a pass as fit. That takes 3 passes over the images and one or
+/// two for each time that the descriptors fill options.memory. Where all fit it is the same as from
+/// memory, in 2 passes. Of a node with more equal descriptors than fit others may stay unseen, and
+/// become no words of their own.
 ///
 /// @param images       the descriptors of each; some images may have none
 /// @param image_count  how many images the source has

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -21,9 +22,9 @@ namespace gslam {
 inline namespace v1 {
 namespace detail {
 
-// One use. The nodes at the top, with more descriptors than the memory holds, are split by a sample
-// of all; then, as many as fit in a pass, what is below them is trained on all of its descriptors.
-// So only centres that are means of very many come from a sample.
+// One use. Nodes with more descriptors than the memory holds are split by a sample of them; what is
+// below them is trained on all of its descriptors, as many nodes in a pass as fit. So only centres
+// that are means of very many come from a sample.
 class StreamTraining {
  public:
   StreamTraining(std::size_t image_count, const ImageSource& image, Training& training)
@@ -104,67 +105,73 @@ class StreamTraining {
   }
 
   void grow() {
-    const std::uint64_t whole_work = total_ * training_.options.depth;
+    training_.progress.setTotal(total_ * training_.options.depth);
     if (total_ <= rows_->rows()) {
-      training_.progress.setTotal(whole_work);
       training_.grow(rows_->row(0), {training_.root(static_cast<std::size_t>(total_))});
       return;
     }
-    const std::uint64_t sample_work = std::uint64_t(rows_->rows()) * training_.options.depth;
-    training_.progress.setTotal(sample_work + whole_work);
-    growTop();
-    if (isCancelled()) return;
-    countRows();
-    std::uint64_t work_left = 0;
-    for (const Branch& branch : branches_) work_left += branch.kept * branch.root.levels;
-    training_.progress.setDone(sample_work + whole_work - work_left);
-    for (std::size_t first = 0; first < branches_.size() && !isCancelled();) {
-      first = growBranches(first);
+    Branch root;
+    root.root = training_.root(0);
+    root.count = total_;
+    root.kept = rows_->rows();
+    splitBySample(root, branches_);
+    while (!branches_.empty() && !isCancelled()) {
+      countRows();
+      growRound();
     }
   }
 
-  // A node below which there is no sample, but the descriptors themselves.
+  // A leaf, for now, below which the tree goes on.
   struct Branch {
     GrowingNode root;
     std::uint64_t count = 0;  // of its descriptors
-    std::uint64_t kept = 0;   // of these, in the training: no more than the memory holds
+    std::uint64_t kept = 0;   // of these, in memory: no more than fit
     std::uint64_t seen = 0;   // in a pass
     std::size_t next = 0;     // row for the next one
   };
 
-  // Splits nodes by the sample while they have more than half of what fits: so there is room when
-  // the sample tells too little. Nodes with few in the sample are not split by it in any case.
-  void growTop() {
-    const auto room = static_cast<double>(rows_->rows());
-    const auto half_full =
-        static_cast<std::size_t>(room * room / (2 * static_cast<double>(total_)));
-    const std::size_t least =
-        std::max(half_full + 1, std::size_t(kLeastPerChild) * training_.options.branching);
+  // Splits a node by its rows in memory, and so on as long as those below have more than half of
+  // what fits, and enough rows to tell. They become branches.
+  void splitBySample(const Branch& branch, std::vector<Branch>& branches) {
+    const double kept = static_cast<double>(branch.kept);
+    const double half_full = static_cast<double>(rows_->rows()) / 2;
+    const auto least = static_cast<std::size_t>(
+        std::max(half_full * kept / static_cast<double>(branch.count) + 1,
+                 static_cast<double>(kLeastPerChild * training_.options.branching)));
+    GrowingNode root = branch.root;
+    root.first = 0;
+    root.count = static_cast<std::size_t>(branch.kept);
     NodeSplitter splitter(training_.settings, training_.options.parallel, training_.progress);
+    const std::function<bool(double)> nobody;
+    TrainingProgress unused(nobody);  // of a sample: countRows() says what it was good for
     const std::vector<GrowingNode> rest =
-        growBig(splitter, rows_->row(0), rows_->stride(), {training_.root(rows_->rows())}, least,
-                training_.tree, training_.progress);
+        growBig(splitter, rows_->row(0), rows_->stride(), {root}, least, training_.tree, unused);
     training_.counts += splitter.counts();
     for (const GrowingNode& node : rest) {
       if (node.levels == 0) continue;
-      Branch branch;
-      branch.root = node;
-      branches_.push_back(branch);
+      Branch next;
+      next.root = node;
+      branches.push_back(next);
     }
   }
 
-  // How many descriptors fall on each branch.
+  // How many descriptors fall on each branch, and how many on none.
   void countRows() {
     makeTop();
+    std::uint64_t work_left = 0;
     pass([&](const Descriptors& image, std::size_t number) {
       checkImage(image, number, format_);
       for (const std::uint32_t node : leavesOf(top_, image)) {
-        if (branch_of_[node] != kNone) ++branches_[branch_of_[node]].count;
+        if (branch_of_[node] == kNone) continue;
+        Branch& branch = branches_[branch_of_[node]];
+        ++branch.count;
+        work_left += branch.root.levels;
       }
     });
     for (Branch& branch : branches_) {
       branch.kept = std::min<std::uint64_t>(branch.count, rows_->rows());
     }
+    training_.progress.setDone(total_ * training_.options.depth - work_left);
   }
 
   // The top of the tree as a vocabulary, which finds the branch of a descriptor.
@@ -178,34 +185,68 @@ class StreamTraining {
     }
     top_ = buildVocabulary(treeDataOf(training_.tree, order, settings, training_.options.depth),
                            "training");
+    branch_of_.clear();
     for (const std::uint32_t grown : order) branch_of_.push_back(branch_of_grown[grown]);
   }
 
-  // Trains the branches from `first` on whose descriptors fit the memory together, and returns the
-  // one behind them.
-  std::size_t growBranches(std::size_t first) {
-    std::size_t end = first;
+  // Trains the branches, as many in a pass as fit. What does not fit is split once more by a
+  // sample, and its parts are the branches of the next round.
+  void growRound() {
+    std::vector<Branch> next_round;
+    for (std::size_t first = 0; first < branches_.size();) {
+      const std::size_t end = placeRows(first);
+      takeRows(first, end);
+      if (isCancelled()) return;
+      if (isLarge(branches_[first])) {
+        splitBySample(branches_[first], next_round);
+      } else {
+        growBranches(first, end);
+      }
+      first = end;
+    }
+    branches_.swap(next_round);
+  }
+
+  static bool isLarge(const Branch& branch) { return branch.kept < branch.count; }
+
+  // Gives rows of the memory to a large branch, or to as many that are not as fit. Returns the one
+  // behind them.
+  std::size_t placeRows(std::size_t first) {
     std::size_t rows = 0;
-    std::vector<GrowingNode> growing;
-    for (; end < branches_.size() && rows + branches_[end].kept <= rows_->rows(); ++end) {
-      Branch& branch = branches_[end];
+    for (std::size_t b = first; b < branches_.size(); ++b) {
+      Branch& branch = branches_[b];
+      const bool fits = !isLarge(branch) && branch.kept <= rows_->rows() - rows;
+      if (b != first && !fits) return b;
       branch.next = branch.root.first = rows;
       branch.root.count = static_cast<std::size_t>(branch.kept);
       rows += branch.root.count;
-      if (branch.root.count != 0) growing.push_back(branch.root);
+      if (isLarge(branch)) return b + 1;
     }
-    pass(
-        [&](const Descriptors& image, std::size_t number) { takeRows(image, number, first, end); });
-    if (isCancelled()) return end;
+    return branches_.size();
+  }
+
+  void growBranches(std::size_t first, std::size_t end) {
+    std::vector<GrowingNode> growing;
+    for (std::size_t b = first; b < end; ++b) {
+      if (branches_[b].count != 0) growing.push_back(branches_[b].root);
+    }
+    training_.grow(rows_->row(0), growing);
+  }
+
+  // Brings the descriptors of some branches into the memory.
+  void takeRows(std::size_t first, std::size_t end) {
+    pass([&](const Descriptors& image, std::size_t number) {
+      takeRowsOf(image, number, first, end);
+    });
+    if (isCancelled()) return;
     for (std::size_t b = first; b < end; ++b) {
       if (branches_[b].seen != branches_[b].count) refusePass("fewer");
     }
-    training_.grow(rows_->row(0), growing);
-    return end;
   }
 
-  // Copies the descriptors of an image that fall on some branches: all, or every so many of them.
-  void takeRows(const Descriptors& image, std::size_t number, std::size_t first, std::size_t end) {
+  // Of one image: all that fall on a branch, or an even part of them.
+  void takeRowsOf(const Descriptors& image, std::size_t number, std::size_t first,
+                  std::size_t end) {
     checkImage(image, number, format_);
     const std::vector<std::uint32_t> nodes = leavesOf(top_, image);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
