@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -165,7 +166,7 @@ TEST_F(VocabularyFile, WithAnImpossibleHeaderIsRefused) {
     const std::string complaint = complaintAbout(damaged);
     EXPECT_NE(complaint.find(said), std::string::npos) << complaint;
   };
-  expect(withField<std::uint32_t>(bytes, 8, 0x04030201), "order of bytes");
+  expect(withField<std::uint32_t>(bytes, 8, 0x04030202), "order of bytes");
   expect(withField<std::uint32_t>(bytes, 12, 2), "version 2 at byte 12");
   expect(withField<std::uint8_t>(bytes, 16, 4), "type of descriptors 4 at byte 16");
   expect(withField<std::uint8_t>(bytes, 17, 4), "weighting 4");
@@ -178,7 +179,67 @@ TEST_F(VocabularyFile, WithAnImpossibleHeaderIsRefused) {
   expect(withField<std::uint32_t>(bytes, 44, 0xFFFFFFFF), "header asks for");
   expect(withField<std::uint32_t>(bytes, 48, 40), "number of words 40");
   expect(withField<std::uint32_t>(bytes, 52, 0), "number of weights 0");
-  expect(withField<std::uint64_t>(bytes, 60, ~std::uint64_t(0)), "header asks for");
+  expect(withField<std::uint64_t>(bytes, 64, ~std::uint64_t(0)), "header asks for");
+}
+
+// As a machine with another order of bytes writes it, by docs/formats/vocabulary.md.
+std::string turnedRound(std::string bytes, const std::vector<std::size_t>& list_sizes,
+                        const std::vector<std::size_t>& number_sizes) {
+  const auto turn = [&bytes](std::size_t begin, std::size_t count, std::size_t size) {
+    for (std::size_t i = 0; i < count; ++i) {
+      std::reverse(bytes.begin() + std::ptrdiff_t(begin + i * size),
+                   bytes.begin() + std::ptrdiff_t(begin + (i + 1) * size));
+    }
+  };
+  for (const std::size_t at : {8, 12, 24, 28, 32, 36, 40, 44, 48, 52}) turn(at, 1, 4);
+  turn(64, 1, 8);
+  std::size_t end = 256;
+  for (std::size_t i = 0; i < list_sizes.size(); ++i) {
+    end = (end + 63) / 64 * 64;
+    turn(end, list_sizes[i] / number_sizes[i], number_sizes[i]);
+    end += list_sizes[i];
+  }
+  const auto sum = [&bytes](std::size_t begin, std::size_t end_at, std::size_t to) {
+    const auto* const data = reinterpret_cast<const std::uint8_t*>(bytes.data());
+    const std::uint64_t value = gslam::detail::Xxh64::of(data + begin, end_at - begin);
+    std::memcpy(&bytes[to], &value, 8);
+  };
+  sum(256, bytes.size(), 240);
+  turn(240, 1, 8);
+  sum(0, 248, 248);
+  turn(248, 1, 8);
+  return bytes;
+}
+
+TEST_F(VocabularyFile, OfAnotherOrderOfBytesIsTheSame) {
+  for (const DescriptorType type : {DescriptorType::binary, DescriptorType::float32,
+                                    DescriptorType::float16, DescriptorType::int8}) {
+    const Vocabulary vocabulary = treeOf(formatOf(type, 12), 3, 3);
+    saveVocabulary(vocabulary, path());
+    const std::size_t nodes = vocabulary.nodeCount();
+    const std::size_t number = bytesOf(vocabulary.format()) / 12;
+    const std::size_t row = type == DescriptorType::binary    ? 16
+                            : type == DescriptorType::float16 ? 24
+                                                              : 12 * number;
+    const std::string turned = turnedRound(bytesOfFile(path()),
+                                           {nodes * 4, nodes, vocabulary.wordCount() * 2UL,
+                                            vocabulary.tree().weight_count * 8UL, nodes * row},
+                                           {4, 1, 2, 8, number});
+    write(turned);
+    const Vocabulary opened = gslam::openVocabulary(path());
+    EXPECT_FALSE(opened.isMapped());
+    EXPECT_NO_THROW(verifyVocabulary(opened));
+    const gslam::detail::TreeData before = gslam::detail::treeDataOf(vocabulary);
+    const gslam::detail::TreeData after = gslam::detail::treeDataOf(opened);
+    EXPECT_EQ(after.format.scale, before.format.scale);
+    EXPECT_EQ(after.parents, before.parents);
+    EXPECT_EQ(after.words, before.words);
+    EXPECT_EQ(after.weights, before.weights);
+    EXPECT_EQ(after.descriptors, before.descriptors);
+    std::string damaged = turned;
+    damaged[300] = static_cast<char>(damaged[300] ^ 1);
+    EXPECT_NE(complaintAbout(damaged, false), "");
+  }
 }
 
 // What was not verified may be wrong, but must not be read beyond.

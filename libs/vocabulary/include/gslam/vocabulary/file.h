@@ -37,7 +37,8 @@ inline void saveVocabulary(const Vocabulary& vocabulary, const std::string& path
 
 /// Opens a file of saveVocabulary(): it is mapped, not read. The header is checked, and that the
 /// file is as long as it says; the rest is not touched. A file that is damaged there gives wrong
-/// words, but no crash; verifyVocabulary() tells.
+/// words, but no crash; verifyVocabulary() tells. A file of a machine with another order of bytes
+/// is read, checked and copied.
 ///
 /// Nobody may write into the file while it is open; to replace it, as saveVocabulary() does, is
 /// all right. Where somebody makes it shorter, the system ends processes that read what was cut.
@@ -56,11 +57,7 @@ inline void verifyVocabulary(const Vocabulary& vocabulary, const std::string& na
   if (storage->isMapped()) {
     detail::TreeHeader header;
     std::memcpy(&header, storage->data(), sizeof header);
-    const std::uint64_t sum = detail::Xxh64::of(storage->data() + detail::kTreeHeaderSize,
-                                                storage->size() - detail::kTreeHeaderSize);
-    if (sum != header.checksum) {
-      throw ParseError(name, 0, 0, "is damaged: bytes 256 to its end do not fit its checksum");
-    }
+    detail::checkBody(*storage, header.checksum, name);
   }
   detail::TreeChecker(vocabulary.tree(), name).check();
 }

@@ -6,6 +6,7 @@
 #include <gslam/base/error.h>
 #include <gslam/vocabulary/detail/build_tree.h>
 #include <gslam/vocabulary/detail/storage.h>
+#include <gslam/vocabulary/detail/swap_tree.h>
 #include <gslam/vocabulary/detail/tree_layout.h>
 #include <gslam/vocabulary/vocabulary.h>
 
@@ -25,6 +26,7 @@ namespace detail {
 
 constexpr char kTreeMagic[9] = "GSLAMVOC";
 constexpr std::uint32_t kTreeByteOrder = 0x01020304;
+constexpr std::uint32_t kOtherByteOrder = 0x04030201;
 constexpr std::uint32_t kTreeVersion = 1;
 
 inline std::uint64_t checksumOfHeader(const TreeHeader& header) {
@@ -55,6 +57,13 @@ inline TreeHeader headerOf(const TreeView& tree) {
   return header;
 }
 
+inline void checkBody(const Storage& storage, std::uint64_t checksum, const std::string& name) {
+  const std::uint64_t sum =
+      Xxh64::of(storage.data() + kTreeHeaderSize, storage.size() - kTreeHeaderSize);
+  if (sum == checksum) return;
+  throw ParseError(name, 0, 0, "is damaged: bytes 256 to its end do not fit its checksum");
+}
+
 // Makes a tree of the bytes of a file, of which only the header is read.
 class TreeOpener {
  public:
@@ -71,6 +80,7 @@ class TreeOpener {
       fail("has " + std::to_string(storage_->size()) + " bytes, but its header asks for " +
            std::to_string(layout.size) + ": it is cut off, or something was added");
     }
+    if (is_swapped_) swapAll(tree, layout, has_numbers, has_ids);
     placeTree(tree, layout, storage_->data(), has_numbers, has_ids);
     return Vocabulary(storage_, tree);
   }
@@ -90,17 +100,18 @@ class TreeOpener {
       fail("ends at byte " + std::to_string(size) + ", inside its header of 256 bytes");
     }
     std::memcpy(&header_, storage_->data(), kTreeHeaderSize);
+    const std::uint64_t checksum = checksumOfHeader(header_);
+    is_swapped_ = header_.byte_order == kOtherByteOrder;
+    if (is_swapped_) swapHeader(header_);
     if (header_.byte_order != kTreeByteOrder) {
-      fail("has the byte order " + std::to_string(header_.byte_order) + " at byte 8, expected " +
-           std::to_string(kTreeByteOrder) +
-           ": it is damaged, or of a machine with another order of bytes; convert it there to text "
-           "(gslam vocabulary convert)");
+      fail("has the order of bytes " + std::to_string(header_.byte_order) +
+           " at byte 8, expected " + std::to_string(kTreeByteOrder) + ": it is damaged");
     }
     if (header_.version != kTreeVersion) {
       fail("has version " + std::to_string(header_.version) + " at byte 12, expected 1: it needs " +
            "another GSLAM");
     }
-    if (header_.header_checksum != checksumOfHeader(header_)) {
+    if (header_.header_checksum != checksum) {
       fail("has a damaged header: bytes 0 to 247 do not fit the checksum at byte 248");
     }
   }
@@ -141,9 +152,19 @@ class TreeOpener {
          std::to_string(most));
   }
 
+  // Of another machine: a copy in the order of this one. All of it is read, so it is checked, too.
+  void swapAll(const TreeView& tree, const TreeLayout& layout, bool has_numbers, bool has_ids) {
+    checkBody(*storage_, header_.checksum, name_);
+    const std::shared_ptr<Storage> copy = Storage::ofSize(storage_->size());
+    std::memcpy(copy->data(), storage_->data(), storage_->size());
+    swapLists(tree, layout, has_numbers, has_ids, copy->data());
+    storage_ = copy;
+  }
+
   std::shared_ptr<const Storage> storage_;
   const std::string& name_;
   TreeHeader header_ = {};
+  bool is_swapped_ = false;
 };
 
 // Whether every number of a tree is what tree_view.h says.

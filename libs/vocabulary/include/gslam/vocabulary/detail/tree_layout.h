@@ -11,7 +11,8 @@ namespace gslam {
 inline namespace v1 {
 namespace detail {
 
-// The first bytes of a file, in the order of the machine that wrote it; `byte_order` says which.
+// The first bytes of a file, in the order of the machine that wrote it; `byte_order` says which:
+// docs/formats/vocabulary.md.
 struct TreeHeader {
   char magic[8];  // "GSLAMVOC"
   std::uint32_t byte_order;
@@ -30,7 +31,7 @@ struct TreeHeader {
   std::uint32_t node_count;
   std::uint32_t word_count;
   std::uint32_t weight_count;
-  std::uint32_t unused;
+  std::uint32_t unused[2];
   std::uint64_t file_size;
   std::uint64_t unused_words[21];
   std::uint64_t checksum;         // of all behind the header
