@@ -27,7 +27,7 @@ int configCommand(const std::vector<std::string>& arguments) {
   const auto put = [&config](const std::string& name, const gslam::Svar& parameters) {
     config.set(name, parameters.isNull() ? gslam::Svar::object() : parameters);
   };
-  if (!slam.empty()) put("param", plugins.slam(slam).parameters);
+  if (!slam.empty()) put("set", plugins.slam(slam).parameters);
   if (!dataset.empty()) put("dataset-param", plugins.dataset(dataset).parameters);
   std::cout << gslam::printJson(config, 2) << '\n';
   return kSuccess;

@@ -22,7 +22,9 @@ gslam::Svar completeOption(const gslam::Svar& defaults, const Options& options,
   try {
     return gslam::completeParameters(defaults, given);
   } catch (const gslam::SvarError& error) {
-    const std::string name = error.path().empty() ? "" : "." + error.path();
+    // As it is given: --set NAME=VALUE, --dataset-param.NAME VALUE.
+    const std::string between = std::string(option) == "set" ? " " : ".";
+    const std::string name = error.path().empty() ? "" : between + error.path();
     throw gslam::ConfigError(std::string("--") + option + name, error.problem());
   }
 }

@@ -1,4 +1,5 @@
 #include <gslam/core/stamp.h>
+#include <gslam/core/trajectory_file.h>
 #include <gslam/datasets/check_dataset.h>
 #include <gslam/svar/json.h>
 
@@ -174,6 +175,13 @@ gslam::DatasetCheck check(gslam::Dataset& dataset) {
   return gslam::checkDataset(dataset, how);
 }
 
+void writeGroundTruth(const DatasetInfo& info, const std::string& file) {
+  if (info.ground_truth.empty()) {
+    throw gslam::Error("dataset '" + info.name + "' has no ground truth to write to " + file);
+  }
+  gslam::writeTrajectory(file, info.ground_truth);
+}
+
 int statusOf(const gslam::DatasetCheck& check) {
   if (check.is_stopped) return kInterrupted;
   return check.errors.empty() ? kSuccess : kFailure;
@@ -186,6 +194,7 @@ int infoCommand(const std::vector<std::string>& arguments) {
                   "Says what is in a dataset: a file or folder, or the name of a kind of dataset.");
   declareDataset(options);
   options.arg<bool>("check", false, "read all of it, and say what is wrong with it");
+  options.arg<std::string>("ground-truth", "", "file to write ground truth to, TUM format");
   if (!options.read(arguments)) return kSuccess;
   gslam::Plugins plugins;
   std::unique_ptr<gslam::Dataset> dataset;
@@ -193,6 +202,8 @@ int infoCommand(const std::vector<std::string>& arguments) {
     const StdoutGuard guard;  // what plugins print
     dataset = openDataset(plugins, options, options.oneWord("DATASET"));
   }
+  const auto truth = options.get<std::string>("ground-truth");
+  if (!truth.empty()) writeGroundTruth(dataset->info(), truth);
   Svar result = describe(dataset->info());
   if (!options.isJson()) printInfo(dataset->info());
   int status = kSuccess;

@@ -15,7 +15,8 @@ namespace {
 
 struct Handler {
   std::mutex mutex;
-  std::function<void()> stop;  // empty: none lives, or it was called
+  std::function<void()> stop;    // empty: none lives, or both were called
+  std::function<void()> insist;  // comes next
 };
 
 // Is never destroyed, since the thread that uses it ends with the process.
@@ -26,7 +27,8 @@ Handler& handler() {
 
 void handleOne() {
   const std::lock_guard<std::mutex> lock(handler().mutex);
-  const std::function<void()> stop = std::exchange(handler().stop, nullptr);
+  const std::function<void()> stop =
+      std::exchange(handler().stop, std::exchange(handler().insist, nullptr));
   if (!stop) _exit(kInterrupted);
   stop();
 }
@@ -47,14 +49,16 @@ void holdInterrupts() {
   }).detach();
 }
 
-OnInterrupt::OnInterrupt(std::function<void()> stop) {
+OnInterrupt::OnInterrupt(std::function<void()> stop, std::function<void()> insist) {
   const std::lock_guard<std::mutex> lock(handler().mutex);
   handler().stop = std::move(stop);
+  handler().insist = std::move(insist);
 }
 
 OnInterrupt::~OnInterrupt() {
   const std::lock_guard<std::mutex> lock(handler().mutex);
   handler().stop = nullptr;
+  handler().insist = nullptr;
 }
 
 }  // namespace app

@@ -9,12 +9,14 @@ namespace app {
 /// handler, which may do little. To be called before any other thread starts.
 void holdInterrupts();
 
-/// Calls a function at the first of these signals while it lives. At the second, and where none
-/// lives, the process ends with kInterrupted. One at a time.
+/// Calls a function at the first of these signals while it lives, and another, where there is one,
+/// at the second. At the next, and where none lives, the process ends with kInterrupted. One at a
+/// time.
 class OnInterrupt {
  public:
-  /// @param stop  is called in another thread, and must return soon
-  explicit OnInterrupt(std::function<void()> stop);
+  /// @param stop    is called in another thread, and must return soon
+  /// @param insist  likewise, at the second signal; may be empty
+  explicit OnInterrupt(std::function<void()> stop, std::function<void()> insist = nullptr);
   OnInterrupt(const OnInterrupt&) = delete;
   OnInterrupt& operator=(const OnInterrupt&) = delete;
   /// Waits for the function, should it run.

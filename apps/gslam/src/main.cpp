@@ -12,6 +12,7 @@
 
 #include "command.h"
 #include "interrupt.h"
+#include "run_worker.h"
 
 namespace {
 
@@ -65,8 +66,10 @@ int dispatch(const std::vector<std::string>& arguments) {
     std::cout << "gslam " GSLAM_CORE_VERSION "\n";
     return app::kSuccess;
   }
+  const std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
+  if (name == app::kRunWorker) return app::runWorker(rest);
   for (const Command& command : kCommands) {
-    if (name == command.name) return command.run({arguments.begin() + 1, arguments.end()});
+    if (name == command.name) return command.run(rest);
   }
   return failUnknown(name);
 }
@@ -78,7 +81,7 @@ int main(int argc, char** argv) {
   std::string what = "gslam";
   try {
     const std::vector<std::string> arguments(argv + 1, argv + argc);
-    if (!arguments.empty()) what += " " + arguments[0];
+    if (!arguments.empty()) what += " " + (arguments[0] == app::kRunWorker ? "run" : arguments[0]);
     app::holdInterrupts();
     const int status = dispatch(arguments);
     std::cout.flush();

@@ -9,6 +9,7 @@
 #include "interrupt.h"
 #include "progress.h"
 #include "session.h"
+#include "settings.h"
 
 namespace app {
 namespace {
@@ -64,10 +65,11 @@ int save(Session& session, const Options& options, const std::string& folder) {
 int play(Session& session, const Options& options) {
   const OnInterrupt interrupt([&session] { session.stop(); });
   const gslam::RunResult result = session.play();
+  const gslam::Svar report = app::describe(result);
   if (options.isJson()) {
-    std::cout << gslam::printJson(app::describe(result)) << '\n';
+    std::cout << gslam::printJson(report) << '\n';
   } else {
-    printResult(result, session.hasSlam());
+    printResult(report, session.hasSlam());
   }
   return statusOf(result.play);
 }
@@ -84,7 +86,7 @@ int playCommand(const std::vector<std::string>& arguments) {
   options.arg<std::string>("as", "tum", layoutHelp()).choices(layouts()).group("Save");
   options.arg<std::string>("contact-sheet", "", "PNG file to draw frames in, instead of playing")
       .group("Save");
-  if (!options.read(arguments)) return kSuccess;
+  if (!options.read(withSettings(arguments))) return kSuccess;
   Session session(options);
   const auto sheet = options.get<std::string>("contact-sheet");
   const auto folder = options.get<std::string>("save");

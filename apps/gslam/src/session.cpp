@@ -1,8 +1,7 @@
 #include "session.h"
 
-#include <gslam/core/isolated_slam.h>
-
-#include <chrono>
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <iostream>
@@ -27,7 +26,7 @@ std::string datasetOf(const Options& options) {
 
 gslam::PlayOptions playOptions(const Options& options) {
   gslam::PlayOptions play;
-  const bool is_paced = options.get<std::string>("pace") == "real_time";
+  const bool is_paced = options.get<std::string>("mode") == "real-time";
   play.pace = is_paced ? gslam::Pace::real_time : gslam::Pace::every_frame;
   play.speed = options.get<double>("speed");
   play.first = options.get<std::size_t>("first");
@@ -36,17 +35,32 @@ gslam::PlayOptions playOptions(const Options& options) {
   return play;
 }
 
-// The plugin that brought a SLAM system, and the file it is in.
-gslam::Svar describePlugin(const gslam::Plugins& plugins, const std::string& slam) {
+gslam::Svar describe(const gslam::Plugin& plugin) {
+  return gslam::Svar::object(
+      {{"name", plugin.name}, {"version", plugin.version}, {"path", plugin.path}});
+}
+
+template <class Factories>
+bool hasName(const Factories& factories, const std::string& name) {
+  return std::any_of(factories.begin(), factories.end(),
+                     [&name](const auto& factory) { return factory.name == name; });
+}
+
+// @{
+// The plugin that brought a SLAM system or a kind of dataset, and the file it is in.
+gslam::Svar pluginOfSlam(const gslam::Plugins& plugins, const std::string& name) {
   for (const gslam::Plugin& plugin : plugins.loaded()) {
-    for (const gslam::SlamFactory& factory : plugin.factories.slams()) {
-      if (factory.name != slam) continue;
-      return gslam::Svar::object(
-          {{"name", plugin.name}, {"version", plugin.version}, {"path", plugin.path}});
-    }
+    if (hasName(plugin.factories.slams(), name)) return describe(plugin);
   }
   return nullptr;
 }
+gslam::Svar pluginOfDataset(const gslam::Plugins& plugins, const std::string& name) {
+  for (const gslam::Plugin& plugin : plugins.loaded()) {
+    if (hasName(plugin.factories.datasets(), name)) return describe(plugin);
+  }
+  return nullptr;
+}
+// @}
 
 const char* endName(gslam::PlayEnd end) {
   switch (end) {
@@ -66,8 +80,8 @@ std::string seconds(double value) {
 
 void checkNeedless(const Options& options) {
   if (!options.get<std::string>("slam").empty()) return;
-  if (options.get<gslam::Svar>("param").size() > 0) {
-    throw gslam::ConfigError("--param", "is for a SLAM system: say which by --slam");
+  if (options.get<gslam::Svar>("set").size() > 0) {
+    throw gslam::ConfigError("--set", "is for a SLAM system: say which by --slam");
   }
   if (options.get<bool>("isolate")) {
     throw gslam::ConfigError("--isolate", "is for a SLAM system: say which by --slam");
@@ -75,6 +89,14 @@ void checkNeedless(const Options& options) {
 }
 
 }  // namespace
+
+CallLimits callLimits(const Options& options) {
+  using std::chrono::milliseconds;
+  const double seconds = options.get<double>("timeout");
+  if (seconds == 0) return {milliseconds(120000), milliseconds(60000), milliseconds(600000)};
+  const milliseconds all(std::max(1LL, std::llround(1000 * seconds)));
+  return {all, all, all};
+}
 
 void Session::declare(Options& options) {
   options.arg<std::string>("dataset", "", "file, folder, KIND:PATH or KIND://...")
@@ -84,8 +106,8 @@ void Session::declare(Options& options) {
       .shortName("s")
       .group("What");
   options
-      .arg<gslam::Svar>("param", gslam::Svar::object(),
-                        "parameters of the SLAM system, as --param.NAME VALUE")
+      .arg<gslam::Svar>("set", gslam::Svar::object(),
+                        "parameters of the SLAM system, as --set NAME=VALUE ...")
       .group("What");
   declareDataset(options);
   options.arg<std::string>("application", "", "one to run beside, such as a viewer")
@@ -96,11 +118,17 @@ void Session::declare(Options& options) {
                         "its parameters, as --application-param.NAME VALUE")
       .group("What");
   options.arg<bool>("isolate", false, "run the SLAM system in a process of its own").group("How");
-  options.arg<double>("timeout", 60, "seconds an isolated system may take for a frame")
-      .range(0.001, 86400)
+  options
+      .arg<double>("timeout", 0,
+                   "seconds that a call of the SLAM system may take; 0: 60 for a frame, 120 to "
+                   "configure, 600 to finish")
+      .range(0, 86400)
       .group("How");
-  options.arg<std::string>("pace", "every_frame", "when the next frame goes out")
-      .choices({"every_frame", "real_time"})
+  options
+      .arg<std::string>("mode", "every-frame",
+                        "every-frame: the next waits for this one; real-time: by the stamps, and "
+                        "what the system is too late for is dropped")
+      .choices({"every-frame", "real-time"})
       .group("How");
   options.arg<double>("speed", 1, "of the clock, in real time").range(0.001, 1000).group("How");
   options.arg<std::size_t>("first", 0, "number of the first frame").group("How");
@@ -119,13 +147,19 @@ Session::Session(const Options& options) : play_(playOptions(options)) {
     throw gslam::ConfigError("--first", "is " + std::to_string(play_.first) + ", but there are " +
                                             std::to_string(info.frame_count) + " frames");
   }
-  protocol_ = gslam::Svar::object({{"dataset", gslam::Svar::object({{"given", name},
-                                                                    {"name", info.name},
-                                                                    {"format", info.format},
-                                                                    {"parameters", given}})}});
+  protocol_ = gslam::Svar::object(
+      {{"dataset", gslam::Svar::object({{"given", name},
+                                        {"name", info.name},
+                                        {"format", info.format},
+                                        {"plugin", pluginOfDataset(plugins_, found.factory.name)},
+                                        {"parameters", given},
+                                        {"frames", info.frame_count},
+                                        {"first_stamp", info.first_stamp},
+                                        {"last_stamp", info.last_stamp},
+                                        {"ground_truth_poses", info.ground_truth.size()}})}});
   if (!options.get<std::string>("slam").empty()) makeSlam(options);
   if (!options.get<std::string>("application").empty()) startApplication(options);
-  for (const char* const option : {"pace", "speed", "first", "count", "timeout"}) {
+  for (const char* const option : {"mode", "speed", "first", "count", "timeout"}) {
     protocol_.set(option, options.get<gslam::Svar>(option));
   }
   player_ = std::make_unique<gslam::Player>(*dataset_, messenger_);
@@ -140,11 +174,11 @@ void Session::makeSlam(const Options& options) {
     factory_ = plugins_.slam(name);
     checkSensors(factory_);
   }
-  parameters_ = completeOption(factory_.parameters, options, "param");
+  parameters_ = completeOption(factory_.parameters, options, "set");
   if (!is_isolated) slam_ = gslam::makeSlam(factory_);
   protocol_.set("slam", gslam::Svar::object({{"given", name},
                                              {"name", factory_.name},
-                                             {"plugin", describePlugin(plugins_, factory_.name)},
+                                             {"plugin", pluginOfSlam(plugins_, factory_.name)},
                                              {"parameters", parameters_},
                                              {"isolated", is_isolated}}));
 }
@@ -153,12 +187,14 @@ void Session::makeSlam(const Options& options) {
 void Session::makeIsolatedSlam(const Options& options) {
   gslam::IsolationOptions isolation;
   isolation.slam = options.get<std::string>("slam");
-  isolation.feed_limit =
-      std::chrono::milliseconds(static_cast<std::int64_t>(options.get<double>("timeout") * 1000));
-  auto slam = std::make_unique<gslam::IsolatedSlam>(isolation);
-  factory_ = slam->factory();
+  const CallLimits limits = callLimits(options);
+  isolation.configure_limit = limits.configure;
+  isolation.feed_limit = limits.feed;
+  isolation.finish_limit = limits.finish;
+  isolated_ = std::make_shared<gslam::IsolatedSlam>(isolation);
+  factory_ = isolated_->factory();
   checkSensors(factory_);
-  slam_ = std::move(slam);
+  slam_ = isolated_;
 }
 
 void Session::startApplication(const Options& options) {
@@ -179,7 +215,21 @@ gslam::Svar Session::protocol() const {
   return protocol_.clone();
 }
 
-gslam::RunResult Session::play(const std::function<void(const gslam::RunResult&)>& on_played) {
+long Session::slamProcess() const {
+  return isolated_ == nullptr ? 0 : isolated_->processNumber();
+}
+
+void Session::wrap(const WrapSlam& wrapper) {
+  slam_ = wrapper(std::move(slam_));
+}
+
+void Session::wrap(const WrapDataset& wrapper) {
+  player_.reset();  // it knows the old one
+  dataset_ = wrapper(std::move(dataset_));
+  player_ = std::make_unique<gslam::Player>(*dataset_, messenger_);
+}
+
+gslam::RunResult Session::play() {
   const StdoutGuard guard;  // what SLAM systems and applications print
   Progress progress;
   progress.follow(messenger_);
@@ -193,7 +243,6 @@ gslam::RunResult Session::play(const std::function<void(const gslam::RunResult&)
   setup.name = factory_.name;
   setup.parameters = parameters_;
   setup.play = play_;
-  setup.on_played = on_played;
   gslam::RunResult result = gslam::runSlam(*slam_, *player_, *dataset_, setup, messenger_);
   beside_.reset();  // while what it prints is guarded
   return result;
@@ -228,25 +277,28 @@ gslam::Svar describe(const gslam::RunResult& result) {
   return report;
 }
 
-void printResult(const gslam::RunResult& result, bool has_slam) {
-  const gslam::PlayReport& play = result.play;
-  std::cout << endName(play.end) << ": " << play.played << " frames in " << seconds(play.seconds);
-  if (play.seconds > 0) std::cout << ", " << int(double(play.played) / play.seconds) << " a second";
-  if (play.dropped > 0) std::cout << ", " << play.dropped << " dropped";
-  if (play.unreadable > 0) std::cout << ", " << play.unreadable << " could not be read";
+void printResult(const gslam::Svar& result, bool has_slam) {
+  const auto count = [&result](const char* name) { return result.get<std::uint64_t>(name, 0); };
+  const auto end = result.get<std::string>("end");
+  const std::uint64_t frames = count("frames");
+  const double time = result.get<double>("seconds", 0);
+  std::cout << end << ": " << frames << " frames in " << seconds(time);
+  if (time > 0) std::cout << ", " << int(double(frames) / time) << " a second";
+  if (count("dropped") > 0) std::cout << ", " << count("dropped") << " dropped";
+  if (count("unreadable") > 0) std::cout << ", " << count("unreadable") << " could not be read";
   std::cout << '\n';
   if (has_slam) {
-    std::cout << "poses: " << result.trajectory.size() << " of " << play.played << " frames, "
-              << result.trajectory.length() << " m\n";
+    std::cout << "poses: " << count("poses") << " of " << frames << " frames, "
+              << result.get<double>("length_m", 0) << " m\n";
   }
-  if (result.invalid_poses > 0) {
-    std::cout << "poses that were not finite: " << result.invalid_poses << '\n';
+  if (count("invalid_poses") > 0) {
+    std::cout << "poses that were not finite: " << count("invalid_poses") << '\n';
   }
-  if (play.end != gslam::PlayEnd::failed) return;
+  if (end != endName(gslam::PlayEnd::failed)) return;
   std::cout.flush();
   std::cerr << "failed";
-  if (play.played > 0) std::cerr << " at frame " << play.last_frame;
-  std::cerr << ": " << play.failure << '\n';
+  if (frames > 0) std::cerr << " at frame " << count("last_frame");
+  std::cerr << ": " << result.get<std::string>("failure", "") << '\n';
 }
 
 }  // namespace app

@@ -2,18 +2,26 @@
 #define GSLAM_APPS_SESSION_H
 
 #include <gslam/core.h>
+#include <gslam/core/isolated_slam.h>
 #include <gslam/core/open_dataset.h>
 #include <gslam/core/plugins.h>
 
+#include <chrono>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 
 #include "beside.h"
 #include "options.h"
 
 namespace app {
+
+/// How long a SLAM system may take.
+struct CallLimits {
+  std::chrono::milliseconds configure, feed, finish;
+};
+/// As --timeout says.
+CallLimits callLimits(const Options& options);
 
 /// A dataset, and a SLAM system for it unless none was asked for: what `run` and `play` share.
 class Session {
@@ -31,10 +39,22 @@ class Session {
 
   /// What plays, so that it can be played again: for machines.
   gslam::Svar protocol() const;
+  const std::string& slamName() const { return factory_.name; }  ///< as its factory says
+  /// Number of the process that the system has for itself; 0: it has none.
+  long slamProcess() const;
+  const gslam::Messenger& messenger() const { return messenger_; }  ///< that all is published on
+
+  /// @{
+  /// Puts something around the system or the dataset. Before play() and stop().
+  using WrapSlam = std::function<std::shared_ptr<gslam::Slam>(std::shared_ptr<gslam::Slam>)>;
+  using WrapDataset =
+      std::function<std::unique_ptr<gslam::Dataset>(std::unique_ptr<gslam::Dataset>)>;
+  void wrap(const WrapSlam& wrapper);
+  void wrap(const WrapDataset& wrapper);
+  /// @}
 
   /// Plays the dataset, with a line of progress, until the end or stop().
-  /// @param on_played  see RunSetup
-  gslam::RunResult play(const std::function<void(const gslam::RunResult&)>& on_played = nullptr);
+  gslam::RunResult play();
 
   /// Makes play() end after the frame in work, also if it has not begun. By any thread.
   void stop();
@@ -51,7 +71,8 @@ class Session {
   std::unique_ptr<gslam::Dataset> dataset_;
   gslam::SlamFactory factory_;
   gslam::Svar parameters_;
-  std::unique_ptr<gslam::Slam> slam_;
+  std::shared_ptr<gslam::Slam> slam_;
+  std::shared_ptr<gslam::IsolatedSlam> isolated_;  // the innermost, where it is one
   const gslam::Messenger messenger_;
   std::unique_ptr<Beside> beside_;
   std::unique_ptr<gslam::Player> player_;
@@ -61,8 +82,8 @@ class Session {
 int statusOf(const gslam::PlayReport& report);
 /// How it went, for machines.
 gslam::Svar describe(const gslam::RunResult& result);
-/// How it went, for people, on stdout.
-void printResult(const gslam::RunResult& result, bool has_slam);
+/// How that went, for people, on stdout; what failed on stderr.
+void printResult(const gslam::Svar& result, bool has_slam);
 
 }  // namespace app
 

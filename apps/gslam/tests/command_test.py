@@ -73,19 +73,21 @@ class WrongUse(Folder):
 
     def test_options_are_named(self):
         run = ["play", "carousel", "-s", "dead_reckoning"]
-        self.check(gslam(*run, "--param.gravty", 1), 2, err="--param.gravty")
-        self.check(gslam(*run, "--param.gravity", "nan"), 2, err="--param.gravity")
-        self.check(gslam(*run, "--param", 5), 2, err="--param")
+        self.check(gslam(*run, "--set", "gravty=1"), 2, err="--set gravty")
+        self.check(gslam(*run, "--param.gravty", 1), 2, err="--set gravty")
+        self.check(gslam(*run, "--set", "gravity=nan"), 2, err="--set")
+        self.check(gslam(*run, "--set", 5), 2, err="--set: expected NAME=VALUE, found '5'")
+        self.check(gslam(*run, "--set"), 2, err="found nothing")
         self.check(gslam(*run, "--first", 9999), 2, err="--first")
         self.check(gslam("run", "carousel", "-s", "dead_reckoning", "-o", ""), 2, err="--out")
 
     def test_options_that_would_do_nothing(self):
-        self.check(gslam("play", "carousel", "--param.gravity", 1), 2, err="--slam")
+        self.check(gslam("play", "carousel", "--set", "gravity=1"), 2, err="--slam")
         self.check(gslam("play", "carousel", "--isolate"), 2, err="--slam")
 
     def test_values_out_of_range(self):
         self.check(gslam("play", "-d", "carousel", "--speed", "-1"), 2, err="speed")
-        self.check(gslam("play", "-d", "carousel", "--pace", "fast"), 2, err="pace")
+        self.check(gslam("play", "-d", "carousel", "--mode", "fast"), 2, err="mode")
 
 
 class Plugins(Folder):
@@ -189,7 +191,8 @@ class Run(Folder):
         (out / "map.gmap").write_text("of a run before")
         self.check(gslam(*run))
         self.assertEqual(sorted(path.name for path in out.iterdir()),
-                         ["run.json", "trajectory.txt"])
+                         ["frames.csv", "groundtruth.txt", "metrics.json", "run.json",
+                          "trajectory.txt", "trajectory_final.txt"])
 
     def test_the_protocol_says_what_ran(self):
         out = self.folder / "out"
@@ -202,7 +205,7 @@ class Run(Folder):
     def test_the_parameters_count(self):
         out = self.folder / "out"
         self.check(gslam("run", "-d", "carousel", "-s", "dead_reckoning", "-o", out,
-                         "--param.gravity", 9.7))
+                         "--set", "gravity=9.7"))
         self.assertEqual(json.loads((out / "run.json").read_text())["slam"]["parameters"],
                          {"gravity": 9.7})
         z = float((out / "trajectory.txt").read_text().strip().splitlines()[-1].split()[3])
@@ -231,7 +234,7 @@ class Run(Folder):
         path = self.folder / "my.json"
         path.write_text(self.check(gslam("config", "-s", "dead_reckoning", "-d", "carousel")).stdout)
         config = json.loads(path.read_text())
-        self.assertEqual(config["param"], {"gravity": 9.81})
+        self.assertEqual(config["set"], {"gravity": 9.81})
         config["dataset-param"]["duration"] = 2.0
         path.write_text(json.dumps(config))
         report = json.loads(gslam("play", "-d", "carousel", "-s", "dead_reckoning", "--config", path,
@@ -298,8 +301,8 @@ class Interrupts(Folder):
         for options in [[], ["--isolate"]]:
             out = self.folder / f"out{len(options)}"
             process = self.start("run", "-d", "carousel", "-s", "dead_reckoning", "-o", out,
-                                 "--pace", "real_time", *options)
-            self.wait_until(out.exists)  # from here on it plays, for 10 s
+                                 "--mode", "real-time", *options)
+            self.wait_until((out / "frames.csv").exists)  # from here on it plays, for 10 s
             time.sleep(1)
             os.killpg(process.pid, signal.SIGINT)  # as a terminal does: the whole group
             stdout, stderr = process.communicate(timeout=30)

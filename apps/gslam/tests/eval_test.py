@@ -200,7 +200,8 @@ class WrongUse(Folder):
         for name, text in [("empty", ""), ("nan", "0 0 0 nan 0 0 0 1\n"), ("words", "a b c\n"),
                            ("norm", "0 0 0 0 0 0 0 3\n"), ("short", "0 0 0 0\n")]:
             self.fails(*ref, self.write(name + ".txt", text), status=1, err=name + ".txt")
-        self.fails(*ref, self.write("topics.bag", "#ROSBAG V2.0\n"), status=1, err="ROS bag")
+        self.fails(*ref, self.write("topics.bag", "#ROSBAG V2.0\n"), status=1, err="topics.bag")
+        self.fails(*ref, self.write("no.bag", "no bag\n"), status=1, err="no.bag")
 
     def test_times_that_do_not_meet(self):
         later = self.write("later.txt", tum(stamps(600), offset=500))
@@ -270,6 +271,38 @@ class Real(Folder):
             for figure, expected in evo.items():
                 self.assertAlmostEqual(errors[case["relation"]][figure], expected,
                                        delta=1e-6 * abs(expected) + 1e-12, msg=f"{name} {figure}")
+
+    def test_topics_of_ros_recordings(self):
+        bags = pathlib.Path(DATA) / "bags"
+        odometry = bags / "ros1" / "test2_jackal_imu_odom.bag"
+        result = evaluate("--ref", odometry, "--est", odometry)
+        if "built without datasets_ros" in result.stderr:
+            self.skipTest(result.stderr)
+        # The only topic with poses is found; to say it is the same.
+        self.check(result, out="topic /jackal_velocity_controller/odom")
+        files = ["--ref", odometry, "--est", odometry, "--est-topic",
+                 "/jackal_velocity_controller/odom"]
+        result = self.figures(*files)
+        self.assertEqual(result["protocol"]["estimate"]["format"], "ros")
+        self.assertEqual(result["protocol"]["estimate"]["topic"], files[-1])
+        self.assertEqual(result["association"]["pairs"], result["protocol"]["reference"]["poses"])
+        self.assertGreater(result["association"]["pairs"], 1000)
+        self.assertLess(result["ape"]["translation"]["max"], 1e-9)
+
+    def test_topics_that_have_to_be_said(self):
+        bags = pathlib.Path(DATA) / "bags"
+        several = bags / "ros1" / "example.bag"
+        result = evaluate("--ref", self.ref, "--est", several)
+        if "built without datasets_ros" in result.stderr:
+            self.skipTest(result.stderr)
+        self.check(result, 2, err="--est-topic: must be given")
+        self.assertIn("/tf_static, /tf", result.stderr)
+        self.check(evaluate("--ref", self.ref, "--est", several, "--est-topic", "/odom"), 1,
+                   err="/tf_static")
+        self.check(evaluate("--ref", self.ref, "--est", bags / "ros2" / "talker"), 1,
+                   err="has no topic with poses; it has /rosout")
+        self.check(evaluate("--ref", self.ref, "--est", self.ref, "--est-topic", "/odom"), 2,
+                   err="--est-topic: is for ROS recordings")
 
     def test_kitti(self):
         folder = pathlib.Path(DATA) / "trajectories" / "evo"

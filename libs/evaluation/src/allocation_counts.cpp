@@ -11,6 +11,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdlib>
 #include <mutex>
 
 #include "allocation_table.h"
@@ -98,6 +99,30 @@ bool descends(const unsigned char* file, std::size_t count, std::size_t index,
   return false;
 }
 
+// The file that this process inherited itself, in which its children are counted, too; null where
+// there is none.
+const unsigned char* inheritedFile() {
+  const char* const text = std::getenv(gslam_allocations::kVariable);  // NOLINT(concurrency-*)
+  if (text == nullptr) return nullptr;
+  char* end = nullptr;
+  const long file = std::strtol(text, &end, 10);
+  if (end == text || *end != ':' || file < 0 || file > 1000000) return nullptr;
+  const unsigned long long inode = std::strtoull(end + 1, nullptr, 10);
+  struct stat facts = {};
+  if (::fstat(int(file), &facts) != 0 || facts.st_ino != inode ||
+      std::size_t(facts.st_size) != gslam_allocations::kFileSize) {
+    return nullptr;
+  }
+  void* const mapped =
+      ::mmap(nullptr, gslam_allocations::kFileSize, PROT_READ, MAP_SHARED, int(file), 0);
+  if (mapped == MAP_FAILED) return nullptr;
+  const auto* const bytes = static_cast<const unsigned char*>(mapped);
+  const bool is_one =
+      reinterpret_cast<const FileHeader*>(bytes)->magic.load() == gslam_allocations::kMagic;
+  if (!is_one) ::munmap(mapped, gslam_allocations::kFileSize);
+  return is_one ? bytes : nullptr;
+}
+
 // Makes the file and says in the environment where it is; null where that cannot be done.
 const unsigned char* makeSharedFile() {
   const int made = ::memfd_create("gslam allocation counts", MFD_ALLOW_SEALING);
@@ -133,6 +158,7 @@ AllocationCounts allocationCounts() noexcept {
 bool countAllocationsOfChildren() {
   static std::mutex mutex;
   const std::lock_guard<std::mutex> lock(mutex);
+  if (shared_file.load() == nullptr) shared_file.store(inheritedFile());
   if (shared_file.load() == nullptr) shared_file.store(makeSharedFile());
   return shared_file.load() != nullptr;
 }

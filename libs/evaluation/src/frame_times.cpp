@@ -30,8 +30,11 @@ std::string milliseconds(double value) {
 
 class MeasuredSlam::Impl {
  public:
-  Impl(std::shared_ptr<Slam> slam, std::shared_ptr<ProcessTree> tree)
-      : slam_(std::move(slam)), tree_(std::move(tree)), start_(now()) {}
+  Impl(std::shared_ptr<Slam> slam, MeasureOptions options)
+      : slam_(std::move(slam)),
+        tree_(std::move(options.tree)),
+        on_frame_(std::move(options.on_frame)),
+        start_(now()) {}
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
@@ -58,29 +61,38 @@ class MeasuredSlam::Impl {
   }
 
   void drop(std::uint64_t frame, std::int64_t stamp) {
-    const std::lock_guard<std::mutex> lock(mutex_);
     FrameTime dropped;
     dropped.frame = frame;
     dropped.stamp = stamp;
-    dropped.delivered = now() - start_;
     dropped.is_dropped = true;
-    entries_.push_back({dropped, 0, {}});
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      dropped.delivered = now() - start_;
+      entries_.push_back({dropped, 0, {}});
+    }
+    tell(dropped);
   }
 
   void take(const TrackedPose& pose) {
     const std::int64_t time = now();
-    const std::lock_guard<std::mutex> lock(mutex_);
-    const auto found = index_.find(pose.frame);
-    if (found == index_.end()) return;  // of no frame that was fed
-    Entry& entry = entries_[found->second];
-    if (entry.time.has_result) {
-      ++entry.time.corrections;
-      return;
+    FrameTime late;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      const auto found = index_.find(pose.frame);
+      if (found == index_.end()) return;  // of no frame that was fed
+      Entry& entry = entries_[found->second];
+      if (entry.time.has_result) {
+        ++entry.time.corrections;
+        return;
+      }
+      entry.time.has_result = true;
+      entry.time.state = pose.state;
+      entry.time.wall_ms = 1e-6 * double(time - entry.begin);
+      charge(entry);
+      if (!entry.is_fed) return;
+      late = entry.time;
     }
-    entry.time.has_result = true;
-    entry.time.state = pose.state;
-    entry.time.wall_ms = 1e-6 * double(time - entry.begin);
-    charge(entry);
+    tell(late);
   }
 
   std::vector<FrameTime> frames() const {
@@ -110,8 +122,13 @@ class MeasuredSlam::Impl {
   struct Entry {
     FrameTime time;
     std::int64_t begin;
-    Meters meters;  // at the begin
+    Meters meters;        // at the begin
+    bool is_fed = false;  // feed() has returned
   };
+
+  void tell(const FrameTime& frame) const {
+    if (on_frame_) on_frame_(frame);
+  }
 
   Meters read() const {
     Meters meters;
@@ -140,9 +157,16 @@ class MeasuredSlam::Impl {
 
   void close(std::size_t index, std::int64_t before) {
     const std::int64_t time = now();
-    const std::lock_guard<std::mutex> lock(mutex_);
-    entries_[index].time.feed_ms = 1e-6 * double(time - before);
-    charge(entries_[index]);
+    FrameTime fed;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      Entry& entry = entries_[index];
+      entry.time.feed_ms = 1e-6 * double(time - before);
+      charge(entry);
+      entry.is_fed = true;
+      fed = entry.time;
+    }
+    tell(fed);
   }
 
   // Called at the pose and at the end of feed(), the later of which stays.
@@ -155,6 +179,7 @@ class MeasuredSlam::Impl {
 
   const std::shared_ptr<Slam> slam_;
   const std::shared_ptr<ProcessTree> tree_;
+  const std::function<void(const FrameTime&)> on_frame_;
   mutable std::mutex mutex_;
   std::int64_t start_;
   std::vector<Entry> entries_;
@@ -165,7 +190,7 @@ class MeasuredSlam::Impl {
 MeasuredSlam::MeasuredSlam(std::shared_ptr<Slam> slam, MeasureOptions options) {
   if (!slam) throw ArgumentError("slam", "is null, expected a SLAM system");
   if (!options.tree) options.tree = std::make_shared<ProcessTree>();
-  impl_ = std::make_shared<Impl>(std::move(slam), std::move(options.tree));
+  impl_ = std::make_shared<Impl>(std::move(slam), std::move(options));
 }
 
 MeasuredSlam::~MeasuredSlam() {

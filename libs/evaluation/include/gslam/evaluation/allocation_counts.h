@@ -44,8 +44,9 @@ GSLAM_EVALUATION_EXPORT AllocationCounts allocationCounts() noexcept;
 
 /// Has the processes that this one starts from now on counted for allocationCountsOf(), where they
 /// are programs that count, such as an IsolatedSlam of a program that does: they inherit an open
-/// file, and its number in the environment (GSLAM_ALLOCATION_COUNTS). To be called before there are
-/// threads that may use the environment; again does nothing.
+/// file, and its number in the environment (GSLAM_ALLOCATION_COUNTS). Where this process inherited
+/// one itself, it is that one, so that whoever started this one sees all. To be called before there
+/// are threads that may use the environment; again does nothing.
 /// @return whether it can be done: on Linux
 GSLAM_EVALUATION_EXPORT bool countAllocationsOfChildren();
 

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -57,6 +58,10 @@ struct FrameTime {
 struct MeasureOptions {
   /// Whose CPU time and allocations (allocationCountsOf() its root) count; null: this process's.
   std::shared_ptr<ProcessTree> tree;
+  /// Is told of each frame as soon as feed() has returned, of one whose first pose comes later
+  /// again then, and of dropped ones; in the thread in which that happens. It should be quick, and
+  /// must not throw. May be empty.
+  std::function<void(const FrameTime&)> on_frame;
 };
 
 /// A SLAM system around another that notes what each frame costs. Everything is handed on; with a

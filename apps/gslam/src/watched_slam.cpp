@@ -1,0 +1,159 @@
+#include "watched_slam.h"
+
+#include <gslam/base/error.h>
+#include <gslam/core/isolated_slam.h>
+
+#include <new>
+
+namespace app {
+namespace {
+
+std::string causeOf(const gslam::IsolationFailure& failure) {
+  using Kind = gslam::IsolationFailure::Kind;
+  switch (failure.kind) {
+    case Kind::signal:
+      return "signal";
+    case Kind::exit:
+      return "exit";
+    case Kind::timeout:
+      return "timeout";
+    case Kind::out_of_memory:
+      return "memory";
+    default:
+      return "lost";
+  }
+}
+
+// Of the exception in work.
+std::string causeOfException() {
+  try {
+    throw;
+  } catch (const gslam::IsolationError& error) {
+    return causeOf(error.failure());
+  } catch (const std::bad_alloc&) {
+    return "memory";
+  } catch (const gslam::Error& error) {
+    // What an isolated system throws arrives as its text.
+    return std::string(error.what()).find("bad_alloc") == std::string::npos ? "exception"
+                                                                            : "memory";
+  } catch (...) {
+    return "exception";
+  }
+}
+
+}  // namespace
+
+WatchedSlam::WatchedSlam(std::shared_ptr<gslam::Slam> slam,
+                         std::shared_ptr<gslam::ProcessTree> tree, const RunRecorders& recorders)
+    : recorders_(recorders),
+      measured_(std::move(slam),
+                {std::move(tree), [this](const gslam::FrameTime& frame) { takeFrame(frame); }}) {
+  poses_.reserve(1024);  // so that taking a pose allocates nothing
+  frames_.reserve(16);
+}
+
+template <class Call>
+void WatchedSlam::watch(RunPhase phase, const Call& call) {
+  recorders_.board.enter(phase);
+  try {
+    call();
+  } catch (...) {
+    cause_ = causeOfException();
+    recorders_.board.enter(RunPhase::waiting);
+    throw;
+  }
+  recorders_.board.enter(RunPhase::waiting);
+}
+
+// Subscribes behind what measures, so that writing is not measured.
+void WatchedSlam::configure(const gslam::SlamSetup& setup) {
+  watch(RunPhase::configuring, [&] {
+    measured_.configure(setup);
+    subscriber_ = setup.messenger.subscribe<gslam::TrackedPose>(
+        "pose", [this](const gslam::TrackedPose& pose) { takePose(pose); });
+  });
+}
+
+void WatchedSlam::feed(const std::shared_ptr<const gslam::Frame>& frame) {
+  dropUntil(frame->id);
+  recorders_.board.frame = frame->id;
+  recorders_.board.has_frame = true;
+  feeder_ = std::this_thread::get_id();
+  try {
+    watch(RunPhase::feeding, [&] { measured_.feed(frame); });
+  } catch (...) {
+    writeWaiting();
+    throw;
+  }
+  writeWaiting();
+}
+
+std::shared_ptr<const gslam::Map> WatchedSlam::map() {
+  std::shared_ptr<const gslam::Map> map;
+  watch(RunPhase::mapping, [&] { map = measured_.map(); });
+  return map;
+}
+
+void WatchedSlam::finish() {
+  watch(RunPhase::finishing, [&] { measured_.finish(); });
+}
+
+void WatchedSlam::notePlayed(const gslam::Frame& frame) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  played_.emplace_back(frame.id, frame.stamp);
+}
+
+void WatchedSlam::end() {
+  dropUntil(UINT64_MAX);
+  for (const gslam::FrameTime& frame : measured_.frames()) {
+    if (frame.corrections > 0) recorders_.frames.add(frame);
+  }
+}
+
+void WatchedSlam::takePose(const gslam::TrackedPose& pose) {
+  if (isInside()) {
+    poses_.push_back(pose);
+  } else {
+    recorders_.live.add(pose);
+  }
+}
+
+void WatchedSlam::takeFrame(const gslam::FrameTime& frame) {
+  if (isInside()) {
+    frames_.push_back(frame);
+  } else {
+    recorders_.frames.add(frame);
+  }
+}
+
+void WatchedSlam::dropUntil(std::uint64_t frame) {
+  std::vector<std::pair<std::uint64_t, std::int64_t>> dropped;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    while (!played_.empty() && played_.front().first < frame) {
+      dropped.push_back(played_.front());
+      played_.pop_front();
+    }
+    if (!played_.empty() && played_.front().first == frame) played_.pop_front();
+  }
+  for (const auto& one : dropped) measured_.noteDropped(one.first, one.second);
+}
+
+void WatchedSlam::writeWaiting() {
+  feeder_ = std::thread::id();
+  for (const gslam::TrackedPose& pose : poses_) recorders_.live.add(pose);
+  for (const gslam::FrameTime& frame : frames_) recorders_.frames.add(frame);
+  poses_.clear();
+  frames_.clear();
+}
+
+std::shared_ptr<const gslam::Frame> WatchedDataset::next() {
+  try {
+    return dataset_->next();
+  } catch (const gslam::Error&) {
+    frames_.addUnreadable();
+    throw;
+  }
+}
+
+}  // namespace app

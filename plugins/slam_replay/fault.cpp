@@ -1,0 +1,29 @@
+#include "fault.h"
+
+#include <csignal>
+#include <cstdlib>
+#include <thread>
+
+namespace replay {
+
+void failIfAsked(const FaultOptions& fault, FaultOptions::Call call, std::uint64_t frame) {
+  if (call != fault.call) return;
+  if (call == FaultOptions::Call::feed && frame < fault.frame) return;
+  switch (fault.kind) {
+    case FaultOptions::Kind::none:
+      return;
+    case FaultOptions::Kind::signal:
+      std::raise(SIGSEGV);
+      return;
+    case FaultOptions::Kind::abort:
+      std::abort();
+    case FaultOptions::Kind::exit:
+      std::exit(kExitStatus);
+    case FaultOptions::Kind::exception:
+      throw gslam::Error("fails, as 'fault' asks for");
+    case FaultOptions::Kind::hang:
+      while (true) std::this_thread::sleep_for(std::chrono::hours(1));
+  }
+}
+
+}  // namespace replay
