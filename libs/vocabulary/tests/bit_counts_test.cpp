@@ -69,8 +69,9 @@ TEST(bit_counts, planes_hold_the_count) {
 }
 
 TEST(bit_counts, are_those_of_each_bit) {
-  for (const std::size_t words : {1, 2, 3, 4, 5, 8}) {
-    for (const std::size_t count : {0, 1, 2, 7, 8, 9, 15, 16, 17, 63, 64, 100, 1000, 2048}) {
+  for (const std::size_t words : {1u, 2u, 3u, 4u, 5u, 8u}) {
+    for (const std::size_t count :
+         {0u, 1u, 2u, 7u, 8u, 9u, 15u, 16u, 17u, 63u, 64u, 100u, 1000u, 2048u}) {
       const Rows rows = randomRows(count, words, static_cast<std::uint32_t>(count + words));
       const std::vector<std::uint64_t> planes = planesOf(rows, words);
       for (std::size_t bit = 0; bit < words * 64; ++bit) {
@@ -102,7 +103,7 @@ TEST(bit_counts, add_up) {
 
 TEST(bit_counts, are_compared) {
   const std::size_t words = 2;
-  for (const std::size_t count : {1, 2, 3, 10, 31, 32}) {
+  for (const std::size_t count : {1u, 2u, 3u, 10u, 31u, 32u}) {
     const Rows rows = randomRows(count, words, static_cast<std::uint32_t>(count));
     const std::vector<std::uint64_t> planes = planesOf(rows, words);
     for (std::size_t least = 1; least <= count + 40; ++least) {

@@ -75,11 +75,11 @@ TEST(train, threads_do_not_change_a_binary_tree) {
 }
 
 TEST(train, threads_do_not_change_a_float_tree) {
-  auto images = floatImages(40, 1000, 6, 500, 1);
+  auto images = floatImages(40, 1000, 4, 500, 1);
   for (auto& image : images.rows) {
     for (float& number : image) number /= 7;  // so that sums are rounded
   }
-  TrainingOptions options = optionsFor(8, 3);
+  TrainingOptions options = optionsFor(8, 2);
   options.parallel.threads = 1;
   const Vocabulary expected = trainVocabulary(images.views(), options);
   for (const unsigned threads : {2u, 8u}) {
@@ -128,7 +128,7 @@ TEST(train, leaves_the_descriptors_alone) {
 TEST(train, takes_descriptors_with_gaps) {
   const auto images = binaryImages(3, 200, 10, 60, 1);
   const Vocabulary expected = trainVocabulary(images.views(), optionsFor(5, 3));
-  std::vector<std::vector<std::uint8_t>> wide(3, std::vector<std::uint8_t>(200 * 13 + 1, 0xAB));
+  std::vector<std::vector<std::uint8_t>> wide(3, std::vector<std::uint8_t>(2601, 0xAB));
   std::vector<Descriptors> views;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 200; ++j) {
@@ -168,7 +168,7 @@ TEST(train, finds_the_centres_of_binary_clusters) {
 TEST(train, finds_the_means_of_float_clusters) {
   std::mt19937 random(1);
   std::vector<float> rows;
-  std::vector<double> sums(6 * 5, 0);
+  std::vector<double> sums(30, 0);
   for (int i = 0; i < 600; ++i) {
     for (std::size_t d = 0; d < 5; ++d) {
       const std::size_t cluster = static_cast<std::size_t>(i) % 6;
@@ -218,7 +218,7 @@ TEST(train, makes_leaves_of_few_descriptors) {
 }
 
 TEST(train, gives_equal_descriptors_one_word) {
-  const std::vector<float> rows(500 * 3, 2.5f);
+  const std::vector<float> rows(1500, 2.5f);
   const std::vector<Descriptors> images(2, gslam::floatDescriptors(rows.data(), 500, 3));
   for (const DescriptorType storage :
        {DescriptorType::float32, DescriptorType::float16, DescriptorType::int8}) {
@@ -359,7 +359,7 @@ TEST(train, tells_what_happened) {
 }
 
 TEST(train, tells_how_far_it_is) {
-  const auto images = binaryImages(40, 1000, 32, 2000, 1);
+  const auto images = binaryImages(35, 1000, 8, 2000, 1);
   TrainingOptions options = optionsFor(10, 4);
   std::vector<double> parts;
   options.progress = [&](double part) {
@@ -374,9 +374,9 @@ TEST(train, tells_how_far_it_is) {
 }
 
 TEST(train, ends_when_it_is_told_to) {
-  const auto images = binaryImages(40, 1000, 32, 2000, 1);
+  const auto images = binaryImages(35, 1000, 8, 2000, 1);
   for (const double end : {0.0, 0.1, 0.5, 1.0}) {
-    TrainingOptions options = optionsFor(10, 4);
+    TrainingOptions options = optionsFor(10, 3);
     int asked_after = 0;
     bool is_over = false;
     options.progress = [&](double part) {
@@ -392,8 +392,8 @@ TEST(train, ends_when_it_is_told_to) {
 }
 
 TEST(train, passes_on_what_the_callback_throws) {
-  const auto images = binaryImages(40, 1000, 32, 2000, 1);
-  TrainingOptions options = optionsFor(10, 4);
+  const auto images = binaryImages(35, 1000, 8, 2000, 1);
+  TrainingOptions options = optionsFor(10, 3);
   options.progress = [](double part) {
     if (part > 0.6) throw std::runtime_error("enough");
     return true;

@@ -37,10 +37,10 @@ struct TrainingOptions {
   /// Threads. They do not change the tree, and its grain does not matter.
   ParallelOptions parallel;
 
-  /// Called now and then with the part of the work that is done, from 0 to 1: at least after each
-  /// hundredth and each iteration of a large node. It may be called by any of the threads, but by
-  /// one at a time. When it returns false, the training ends soon after, with an empty vocabulary.
-  /// What it throws comes out of trainVocabulary().
+  /// Called now and then with the part of the work that is done, from 0 to 1: after each node
+  /// that brings it to another hundredth, and in each iteration of a large node. It may be called
+  /// by any of the threads, but by one at a time. When it returns false, the training ends soon
+  /// after, with an empty vocabulary. What it throws comes out of trainVocabulary().
   std::function<bool(double)> progress;
 };
 

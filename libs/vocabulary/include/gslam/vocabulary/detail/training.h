@@ -111,7 +111,7 @@ struct Training {
     data.weighting = options.weighting;
     data.scoring = options.scoring;
     tree = GrownTree();
-    const Vocabulary unweighted = buildVocabulary(data, "training");
+    Vocabulary unweighted = buildVocabulary(data, "training");
     if (!needsFrequency(options.weighting)) return unweighted;
     WordCounts word_counts(unweighted);
     count_images(word_counts);
