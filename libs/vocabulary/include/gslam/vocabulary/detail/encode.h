@@ -1,0 +1,58 @@
+// Floats as a vocabulary keeps them.
+#ifndef GSLAM_VOCABULARY_DETAIL_ENCODE_H
+#define GSLAM_VOCABULARY_DETAIL_ENCODE_H
+
+#include <gslam/vocabulary/descriptors.h>
+#include <gslam/vocabulary/detail/half.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace gslam {
+inline namespace v1 {
+namespace detail {
+
+// The nearest step; what is outside of them becomes the last one.
+inline std::int8_t stepOfFloat(const DescriptorFormat& format, float value) noexcept {
+  const double step =
+      std::nearbyint((static_cast<double>(value) - static_cast<double>(format.offset)) /
+                     static_cast<double>(format.scale));
+  return static_cast<std::int8_t>(step < -128 ? -128 : step > 127 ? 127 : step);
+}
+
+// Writes bytesOf(format) for as many floats as the format has, which is not binary.
+inline void encodeFloats(const DescriptorFormat& format, const float* from, std::uint8_t* to) {
+  if (format.type == DescriptorType::float32) {
+    std::memcpy(to, from, format.size * sizeof(float));
+    return;
+  }
+  for (std::size_t i = 0; i < format.size; ++i) {
+    if (format.type == DescriptorType::float16) {
+      const std::uint16_t half = halfOfFloat(from[i]);
+      std::memcpy(to + 2 * i, &half, sizeof half);
+    } else {
+      const std::int8_t step = stepOfFloat(format, from[i]);
+      std::memcpy(to + i, &step, sizeof step);
+    }
+  }
+}
+
+// To the nearest numbers that the format has, as the kernels read them.
+inline void roundFloats(const DescriptorFormat& format, float* numbers) {
+  for (std::size_t i = 0; i < format.size; ++i) {
+    if (format.type == DescriptorType::float16) {
+      numbers[i] = floatOfHalf(halfOfFloat(numbers[i]));
+    } else if (format.type == DescriptorType::int8) {
+      const auto step = static_cast<float>(stepOfFloat(format, numbers[i]));
+      numbers[i] = format.offset + format.scale * step;
+    }
+  }
+}
+
+}  // namespace detail
+}  // namespace v1
+}  // namespace gslam
+
+#endif  // GSLAM_VOCABULARY_DETAIL_ENCODE_H
