@@ -89,9 +89,9 @@ struct ScoreAction {
 
 }  // namespace detail
 
-/// How alike two bags are: what DBoW2 and DBoW3 say, to the last bits. Only words that are in both
-/// count, but for Scoring::kl, which takes a word that `w` lacks as one of 2^-52, and which is the
-/// only one that depends on the order of the bags.
+/// How alike two bags are: what DBoW2 and DBoW3 say, to the last bit, but for Scoring::kl, which
+/// agrees to 1e-13. Only words that are in both count. Scoring::kl alone takes a word that `w` lacks
+/// as one of 2^-52, and so depends on the order of the bags.
 ///
 /// Bags should have the length of normFor(): others give what the formulas of Scoring say.
 /// The same on all machines and SIMD variants, as far as the compiler does not fuse additions with
