@@ -1,6 +1,5 @@
 // DBoW3 (github.com/rmsalinas/DBow3).
 #include <DBoW3/DBoW3.h>
-#include <gslam/vocabulary/orb_slam_text.h>
 
 #include <iostream>
 
@@ -92,8 +91,8 @@ class Text : public Peer {
   static constexpr double kTolerance = 1e-6;
   static constexpr const char* kEnding = ".txt";
   using Peer::Peer;
-  explicit Text(const Subject& subject) : Peer(subject), tree_(subject.vocabulary) {}
-  void save(const std::string& path) const { saveOrbSlamText(tree_, path); }
+  explicit Text(const Subject& subject) : Peer(subject), subject_(&subject) {}
+  void save(const std::string& path) const { writeOrbSlamText(*subject_, path); }
   static std::unique_ptr<Text> load(const std::string& path) {
     std::streambuf* const output = std::cerr.rdbuf(nullptr);
     auto loaded = std::make_unique<Text>(path);
@@ -102,7 +101,7 @@ class Text : public Peer {
   }
 
  private:
-  gslam::Vocabulary tree_;
+  const Subject* subject_ = nullptr;
 };
 
 const auto kOrb4 = Cases<Peer>("dbow3", "orb4", orb4)

@@ -3,7 +3,6 @@
 #define DBoW2 OrbSlamDBoW2
 #include <DBoW2/FORB.h>
 #include <DBoW2/TemplatedVocabulary.h>
-#include <gslam/vocabulary/orb_slam_text.h>
 
 #include "dbow2.h"
 
@@ -15,9 +14,9 @@ class Text : public DBow2Peer<Tree, DBoW2::BowVector, DBoW2::FeatureVector, OrbA
  public:
   static constexpr const char* kEnding = ".txt";
   Text() = default;
-  explicit Text(const Subject& subject) : DBow2Peer(subject), tree_(subject.vocabulary) {}
+  explicit Text(const Subject& subject) : DBow2Peer(subject), subject_(&subject) {}
 
-  void save(const std::string& path) const { saveOrbSlamText(tree_, path); }
+  void save(const std::string& path) const { writeOrbSlamText(*subject_, path); }
   static std::unique_ptr<Text> load(const std::string& path) {
     auto loaded = std::make_unique<Text>();
     loaded->vocabulary_->loadFromTextFile(path);
@@ -25,7 +24,7 @@ class Text : public DBow2Peer<Tree, DBoW2::BowVector, DBoW2::FeatureVector, OrbA
   }
 
  private:
-  gslam::Vocabulary tree_;
+  const Subject* subject_ = nullptr;
 };
 
 const auto kOrb6 =

@@ -6,6 +6,8 @@
 #include <GSLAM/core/Vocabulary.h>
 // clang-format on
 
+#include <cstring>
+
 #include "measure.h"
 
 namespace {

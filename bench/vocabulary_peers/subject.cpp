@@ -3,7 +3,10 @@
 #include <gslam/base/error.h>
 #include <gslam/vocabulary/detail/build_tree.h>
 #include <gslam/vocabulary/file.h>
+#include <gslam/vocabulary/orb_slam_text.h>
+#include <gslam/vocabulary/score.h>
 #include <gslam/vocabulary/train.h>
+#include <gslam/vocabulary/transform.h>
 
 #include <algorithm>
 #include <bitset>
@@ -172,6 +175,33 @@ std::vector<Image> trainingImages(const Subject& subject) {
     images.push_back(imageOf(subject.feature, rows));
   }
   return images;
+}
+
+void writeOrbSlamText(const Subject& subject, const std::string& path) {
+  saveOrbSlamText(subject.vocabulary, path);
+}
+
+double rightScore(const Subject& subject, gslam::Scoring scoring, std::size_t a, std::size_t b) {
+  const gslam::Vocabulary vocabulary = subject.vocabulary.withScoring(scoring);
+  gslam::BowVector first, second;
+  transform(vocabulary, subject.images[a].view(), first);
+  transform(vocabulary, subject.images[b].view(), second);
+  return score(scoring, first, second);
+}
+
+std::vector<double> rightResults(const Subject& subject, gslam::Scoring scoring,
+                                 std::size_t query) {
+  const gslam::Vocabulary vocabulary = subject.vocabulary.withScoring(scoring);
+  gslam::BowVector asked, entry;
+  transform(vocabulary, subject.images[query].view(), asked);
+  std::vector<double> scores;
+  for (std::size_t i = kQueries; i < kQueries + kEntries; ++i) {
+    transform(vocabulary, subject.images[i].view(), entry);
+    scores.push_back(score(scoring, asked, entry));
+  }
+  std::sort(scores.rbegin(), scores.rend());
+  scores.resize(10);
+  return scores;
 }
 
 Bag normalized(Bag bag) {

@@ -61,6 +61,15 @@ const Subject& sift4();  ///< of 400 views; it has no entries for a database
 /// The descriptors that a subject was trained on.
 std::vector<Image> trainingImages(const Subject& subject);
 
+/// Writes the tree as text for ORB-SLAM.
+void writeOrbSlamText(const Subject& subject, const std::string& path);
+
+/// The score of two images, the numbers of which are given.
+double rightScore(const Subject& subject, gslam::Scoring scoring, std::size_t a, std::size_t b);
+
+/// The scores of an image and the ten entries that are most like it, found one after the other.
+std::vector<double> rightResults(const Subject& subject, gslam::Scoring scoring, std::size_t query);
+
 /// The values of a bag divided by their sum, without those that are 0.
 Bag normalized(Bag bag);
 
