@@ -24,6 +24,8 @@ constexpr Command kCommands[] = {
     {"info", "say what is in a dataset", app::infoCommand},
     {"eval", "measure a trajectory against ground truth", app::evalCommand},
     {"map", "say what is in a map file, or convert it", app::mapCommand},
+    {"vocabulary", "train, read and convert vocabularies, and find places by them",
+     app::vocabularyCommand},
     {"plugins", "list the plugins, what they bring and its parameters", app::pluginsCommand},
     {"datasets", "list the kinds of datasets that can be read", app::datasetsCommand},
     {"config", "print the parameters of a SLAM system or dataset as a file", app::configCommand},
@@ -34,7 +36,7 @@ void printHelp(std::ostream& out) {
          "Runs SLAM systems on datasets, and looks at both and at the results.\n\n";
   for (const Command& command : kCommands) {
     const std::string name = command.name;
-    out << "  " << name << std::string(10 - name.size(), ' ') << command.summary << '\n';
+    out << "  " << name << std::string(12 - name.size(), ' ') << command.summary << '\n';
   }
   out << "\n`gslam COMMAND --help` says more. Plugins are looked for in the folders of\n"
          "GSLAM_PLUGIN_PATH, beside the program, and in ../lib/gslam/plugins.\n";

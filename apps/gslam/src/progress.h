@@ -9,10 +9,11 @@
 
 namespace app {
 
-/// A line on stderr that says how far the player is; nothing where stderr is no terminal.
+/// A line on stderr that says how far the work is; nothing where stderr is no terminal.
 class Progress {
  public:
-  Progress() = default;
+  /// @param unit  what is counted
+  explicit Progress(const char* unit = "frame") : unit_(unit) {}
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   ~Progress();
@@ -21,9 +22,15 @@ class Progress {
   void follow(const gslam::Messenger& messenger);
   /// Shows frames that are done, of all; 0: of how many is not known.
   void show(std::uint64_t done, std::uint64_t total);
+  /// Shows which part of some work is done, from 0 to 1.
+  void showPart(const char* work, double part);
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  bool isTime(Clock::time_point now);
+
+  const char* const unit_;
   const Clock::time_point begin_ = Clock::now();
   Clock::time_point next_ = begin_;
   const bool is_terminal_ = isatty(STDERR_FILENO) != 0;

@@ -13,7 +13,7 @@ import time
 import unittest
 
 GSLAM = os.environ["GSLAM"]
-COMMANDS = ["run", "play", "info", "eval", "map", "plugins", "datasets", "config"]
+COMMANDS = ["run", "play", "info", "eval", "map", "vocabulary", "plugins", "datasets", "config"]
 
 
 def gslam(*arguments, timeout=60, **environment):
