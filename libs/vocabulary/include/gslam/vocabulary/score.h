@@ -41,7 +41,7 @@ inline void normalize(BowVector& bow, Scoring scoring) noexcept {
   if (norm == BowNorm::none) return;
   double length = 0;
   for (const double value : bow.values) {
-    length += norm == BowNorm::l1 ? std::fabs(value) : value * value;
+    length += norm == BowNorm::l1 ? std::fabs(value) : detail::rounded(value * value);
   }
   if (norm == BowNorm::l2) length = std::sqrt(length);
   if (!(length > 0)) return;
@@ -90,12 +90,12 @@ struct ScoreAction {
 }  // namespace detail
 
 /// How alike two bags are: what DBoW2 and DBoW3 say, to the last bit, but for Scoring::kl, which
-/// agrees to 1e-13. Only words that are in both count. Scoring::kl alone takes a word that `w`
+/// agrees to 1e-12. Only words that are in both count. Scoring::kl alone takes a word that `w`
 /// lacks as one of 2^-52, and so depends on the order of the bags.
 ///
 /// Bags should have the length of normFor(): others give what the formulas of Scoring say.
-/// The same on all machines and SIMD variants, as far as the compiler does not fuse additions with
-/// multiplications, and std::log() is the same.
+/// The same on all machines and SIMD variants, as far as std::log() is the same and the compiler is
+/// not told to be careless (-ffast-math).
 ///
 /// Thread-safety: as far as the bags are not changed meanwhile.
 ///
