@@ -422,10 +422,29 @@ TEST(train, refuses_options_out_of_range) {
   options.most_iterations = 0;
   expectRefused(images.views(), options, "options.most_iterations is 0");
   options = TrainingOptions();
-  options.storage = DescriptorType::binary;
-  expectRefused(images.views(), options, "options.storage is binary");
-  options.storage = static_cast<DescriptorType>(9);
-  expectRefused(images.views(), options, "options.storage is unknown");
+  options.weighting = static_cast<gslam::Weighting>(4);
+  expectRefused(images.views(), options, "options.weighting is 4, expected 0 to 3");
+  options = TrainingOptions();
+  options.scoring = static_cast<gslam::Scoring>(6);
+  expectRefused(images.views(), options, "options.scoring is 6, expected 0 to 5");
+}
+
+TEST(train, refuses_storage_that_floats_have_not) {
+  const auto bits = binaryImages(2, 20, 8, 10, 1);
+  const auto numbers = floatImages(2, 20, 8, 10, 1);
+  for (const auto storage : {DescriptorType::binary, static_cast<DescriptorType>(9)}) {
+    TrainingOptions options;
+    options.storage = storage;
+    expectRefused(numbers.views(), options, "options.storage is ");
+    EXPECT_TRUE(areSame(trainVocabulary(bits.views(), options), trainVocabulary(bits.views())));
+  }
+}
+
+TEST(train, forgets_what_was_told_of_another_training) {
+  TrainingReport report;
+  report.images = 77;
+  EXPECT_THROW(trainVocabulary({}, optionsFor(1, 3), &report), ArgumentError);
+  EXPECT_EQ(report.images, 0u);
 }
 
 TEST(train, refuses_sets_without_descriptors) {

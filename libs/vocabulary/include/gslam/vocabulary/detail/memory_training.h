@@ -70,6 +70,7 @@ inline Vocabulary trainFromMemory(Span<const Descriptors> images, Training& trai
   const std::vector<std::size_t> first_rows = firstRows(images, format);
   const std::size_t count = first_rows.back();
   checkCount(count, training.options.depth);
+  checkStorage(training.options.storage, format);
   training.report.images = images.size();
   training.report.descriptors = count;
   training.report.passes = 1;

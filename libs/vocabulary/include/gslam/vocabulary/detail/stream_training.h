@@ -90,6 +90,7 @@ class StreamTraining {
   void makeRoom(const Descriptors& image, std::size_t number) {
     checkDescriptorSize(image, number);
     format_ = rowFormat(image);
+    checkStorage(training_.options.storage, format_);
     const std::size_t stride = strideOf(format_);
     const std::size_t per_row = stride + 17;
     const std::size_t least = std::size_t(kLeastPerChild) * training_.options.branching;
