@@ -1,8 +1,8 @@
 #ifndef GSLAM_VOCABULARY_SCORE_H
 #define GSLAM_VOCABULARY_SCORE_H
 
-#include <gslam/base/error.h>
 #include <gslam/vocabulary/bow_vector.h>
+#include <gslam/vocabulary/detail/check_bow.h>
 #include <gslam/vocabulary/detail/common_words.h>
 #include <gslam/vocabulary/detail/score_terms.h>
 #include <gslam/vocabulary/weighting.h>
@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <string>
 
 /// @file
 /// How alike two bags of words are.
@@ -55,12 +54,6 @@ inline bool isBetter(Scoring scoring, double score, double other) noexcept {
 }
 
 namespace detail {
-
-inline void checkSizes(const char* name, const BowVector& bow) {
-  if (bow.words.size() == bow.values.size()) return;
-  throw ArgumentError(name, "has " + std::to_string(bow.words.size()) + " words, but " +
-                                std::to_string(bow.values.size()) + " values");
-}
 
 struct ScoreAction {
   const BowVector& v;
