@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <random>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -266,7 +267,14 @@ TEST(database, refuses_features_that_do_not_fit_each_other) {
     EXPECT_THROW(database.add(BowVector(), features), gslam::ArgumentError);
   }
   EXPECT_NO_THROW(database.add(BowVector(), {{1, 2}, {0, 0, 2}, {7, 8}}));  // a node without any
-  EXPECT_NO_THROW(database.add(BowVector(), {{}, {0}, {}}));
+  EXPECT_EQ(database.features(database.add(BowVector(), {{}, {0}, {}})), FeatureVector());
+}
+
+// As who comes from DBoW writes it: 0 is a pointer, too.
+TEST(database, is_not_made_of_numbers) {
+  static_assert(!std::is_constructible<BowDatabase, int>::value, "a scoring");
+  static_assert(!std::is_constructible<BowDatabase, std::nullptr_t>::value, "a scoring");
+  static_assert(std::is_constructible<BowDatabase, Scoring>::value, "a scoring");
 }
 
 TEST(database, may_be_moved) {
