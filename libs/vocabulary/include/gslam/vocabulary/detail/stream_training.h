@@ -56,8 +56,7 @@ class StreamTraining {
   void pass(const Visitor& visit) {
     ++training_.report.passes;
     for (std::size_t i = 0; i < image_count_; ++i) {
-      training_.progress.ask();
-      if (isCancelled()) return;
+      if (!training_.progress.goesOn()) return;
       visit(image_(i), i);
     }
   }
