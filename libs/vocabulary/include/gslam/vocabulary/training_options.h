@@ -23,8 +23,7 @@ struct TrainingOptions {
   Scoring scoring = Scoring::l1;            ///< how bags are compared
 
   /// How the vocabulary keeps floats: float32, float16 or int8, whose steps share the range of all
-  /// numbers evenly. Binary descriptors stay what they are, whatever this is. With float16 numbers
-  /// may be up to 65504.
+  /// numbers evenly. Binary descriptors stay what they are, whatever this is.
   DescriptorType storage = DescriptorType::float32;
 
   std::uint64_t seed = 0;  ///< another one gives another tree
