@@ -40,8 +40,10 @@ class WordTable {
     const auto where = static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(slots_.get()));
     factor_ = SplitMix64(static_cast<std::uint64_t>(now) ^ SplitMix64(where).next()).next() | 1;
   }
-  // A larger one with the same content.
+  // A larger one with the same content, in the same order, so that memory is written from one end
+  // to the other.
   WordTable(const WordTable& other, std::size_t words) : WordTable(words) {
+    factor_ = other.factor_;
     entries_.store(other.entries(), std::memory_order_relaxed);
     for (std::size_t i = 0; i <= other.mask_; ++i) {
       const std::uint64_t head = other.slots_[i].head.load(std::memory_order_relaxed);
@@ -87,7 +89,7 @@ class WordTable {
   }
 
  private:
-  // Each table has a factor that nobody can foretell: else bags could be made whose words all want
+  // Tables have factors that nobody can foretell: else bags could be made whose words all want
   // the same slots, and a small file would take minutes.
   std::size_t hashOf(std::uint32_t word) const noexcept {
     const std::uint64_t product = word * factor_;
