@@ -4,7 +4,9 @@
 usage: compile_headers.py HOUSE_JSON COMPONENT COMPILER STANDARD [FLAG ...]
 
 Each header is compiled twice-included and by itself at -O0; tests/instantiate.cpp, which
-instantiates the templates and kernels, at -O0 and -O2. Opt-in headers (interop_headers of
+instantiates the templates and kernels, at -O0 and -O2. Where nothing but headers is needed it is
+linked at -O0, too: before C++17 a constant of a class has no address unless it is defined, which
+optimisation hides. Opt-in headers (interop_headers of
 cmake/rooms.json) see what pkg-config says of interop_packages, and are left out where their library
 is not installed or does not compile under this standard itself.
 """
@@ -52,18 +54,24 @@ def compiles(command, text):
                           capture_output=True, check=False)
 
 
+def needs_only_headers(house, name):
+    component = next(c for c in house["components"] if c["name"] == name)
+    return component["kind"] == "headers" and all(
+        needs_only_headers(house, dependency) for dependency in component["depends"])
+
+
 def main():
     house_path, name, compiler, standard, *flags = sys.argv[1:]
     house = json.loads(pathlib.Path(house_path).read_text(encoding="utf-8"))
     plan = json.loads((pathlib.Path(house["source"]) / "cmake/rooms.json").read_text("utf-8"))
     component = next(c for c in house["components"] if c["name"] == name)
-    command = [compiler, f"-std={standard}", *flags, *WARNINGS, "-o", "/dev/null", "-c"]
+    command = [compiler, f"-std={standard}", *flags, *WARNINGS, "-o", "/dev/null"]
     for folder in include_folders(house, name):
         command.append("-I" + folder)
     for folder in foreign_folders(plan["interop_packages"]):
         command += ["-isystem", folder]
 
-    jobs = []  # (what, source text, optimisation)
+    jobs = []  # (what, source text, flags)
     for header in public_headers(component):
         prefixes = plan["interop_headers"].get(header)
         path = pathlib.Path(component["folder"]) / "include" / header
@@ -71,19 +79,23 @@ def main():
             print(f"left out: {header}, whose library is not installed or not for {standard}")
             continue
         include = f"#include <{header}>\n"
-        jobs.append((header, include + include, "-O0"))
+        jobs.append((header, include + include, ["-c", "-O0"]))
     instantiate = pathlib.Path(component["folder"]) / "tests" / "instantiate.cpp"
     if instantiate.exists():
         text = instantiate.read_text(encoding="utf-8")
         command += [f"-I{instantiate.parent}"]
-        jobs += [(instantiate.name, text, "-O0"), (instantiate.name, text, "-O2")]
+        jobs.append((instantiate.name, text, ["-c", "-O2"]))
+        if needs_only_headers(house, name):
+            jobs.append((instantiate.name, text + "int main() {}\n", ["-O0", "-pthread"]))
+        else:
+            jobs.append((instantiate.name, text, ["-c", "-O0"]))
 
     failed = 0
-    for what, text, optimise in jobs:
-        result = compiles(command + [optimise], text)
+    for what, text, how in jobs:
+        result = compiles(command + how, text)
         if result.returncode != 0:
             failed += 1
-            print(f"{what} with {compiler} -std={standard} {optimise}:\n{result.stderr}")
+            print(f"{what} with {compiler} -std={standard} {' '.join(how)}:\n{result.stderr}")
     print(f"{name}: {len(jobs)} compilations with {compiler} -std={standard}, {failed} failed")
     return 1 if failed or not jobs else 0
 

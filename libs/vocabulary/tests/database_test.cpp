@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <random>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -58,16 +59,9 @@ Results queryByBruteForce(Scoring scoring, const Bags& bags, const BowVector& qu
   return results;
 }
 
-// Exactly; but compilers that fuse additions with multiplications may do it here and not there.
 void expectSame(const Results& results, const Results& expected) {
   ASSERT_EQ(results.size(), expected.size());
-#if GSLAM_HAS_FMA
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    EXPECT_NEAR(results[i].score, expected[i].score, 1e-13);
-  }
-#else
-  EXPECT_TRUE(results == expected);
-#endif
+  EXPECT_TRUE(results == expected);  // to the last bit
 }
 
 // Images of a walk that comes back: neighbours have many words in common.
@@ -273,7 +267,14 @@ TEST(database, refuses_features_that_do_not_fit_each_other) {
     EXPECT_THROW(database.add(BowVector(), features), gslam::ArgumentError);
   }
   EXPECT_NO_THROW(database.add(BowVector(), {{1, 2}, {0, 0, 2}, {7, 8}}));  // a node without any
-  EXPECT_NO_THROW(database.add(BowVector(), {{}, {0}, {}}));
+  EXPECT_EQ(database.features(database.add(BowVector(), {{}, {0}, {}})), FeatureVector());
+}
+
+// As who comes from DBoW writes it: 0 is a pointer, too.
+TEST(database, is_not_made_of_numbers) {
+  static_assert(!std::is_constructible<BowDatabase, int>::value, "a scoring");
+  static_assert(!std::is_constructible<BowDatabase, std::nullptr_t>::value, "a scoring");
+  static_assert(std::is_constructible<BowDatabase, Scoring>::value, "a scoring");
 }
 
 TEST(database, may_be_moved) {

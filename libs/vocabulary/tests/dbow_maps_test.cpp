@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <random>
 #include <vector>
@@ -62,4 +63,22 @@ TEST(dbow_maps, with_numbers_that_do_not_fit_are_refused) {
   using Features = std::map<unsigned, std::vector<std::int64_t>>;
   EXPECT_THROW(gslam::featuresFromMap(Features{{1, {-1}}}), gslam::ArgumentError);
   EXPECT_THROW(gslam::featuresFromMap(Features{{1, {0x100000000}}}), gslam::ArgumentError);
+}
+
+TEST(dbow_maps, that_are_not_in_order_are_refused) {
+  using Twice = std::multimap<unsigned, double>;
+  EXPECT_THROW(gslam::bowFromMap(Twice{{5, 1}, {5, 1}}), gslam::ArgumentError);
+  using Down = std::map<unsigned, double, std::greater<unsigned>>;
+  EXPECT_THROW(gslam::bowFromMap(Down{{5, 1}, {6, 1}}), gslam::ArgumentError);
+  using Features = std::multimap<unsigned, std::vector<unsigned>>;
+  EXPECT_THROW(gslam::featuresFromMap(Features{{5, {1}}, {5, {2}}}), gslam::ArgumentError);
+}
+
+TEST(dbow_maps, are_not_made_of_lists_that_do_not_fit) {
+  using Bow = std::map<unsigned, double>;
+  EXPECT_THROW(gslam::toMap<Bow>(BowVector{{1, 2, 3}, {}}), gslam::ArgumentError);
+  for (const FeatureVector& bad : {FeatureVector{{1}, {}, {7}}, FeatureVector{{1}, {0, 2}, {7}},
+                                   FeatureVector{{1, 2}, {0, 9, 1}, {7}}}) {
+    EXPECT_THROW(gslam::toMap<DerivedFeatures>(bad), gslam::ArgumentError);
+  }
 }

@@ -61,6 +61,25 @@ TEST(fingerprint, is_another_for_everything_that_changes_bags) {
   EXPECT_EQ(seen.size(), 7u);
 }
 
+// Six nodes of one byte, of which two are below another.
+TEST(fingerprint, is_another_for_trees_of_other_shape_and_depth) {
+  TreeData data;
+  data.format.size = 1;
+  data.branching = 4;
+  data.depth = 2;
+  data.parents = {0, 0, 1, 1, 2, 2};
+  data.descriptors = {0x0F, 0xF0, 0x0F, 0x0E, 0xF0, 0x70};
+  data.weights.assign(6, 1);
+  std::set<std::uint64_t> seen = {fingerprintOf(data)};
+  data.depth = 6;  // features lie under other nodes, where they are counted from the leaves
+  seen.insert(fingerprintOf(data));
+  data.parents = {0, 0, 1, 2, 2, 2};  // as many words
+  seen.insert(fingerprintOf(data));
+  data.parents = {0, 0, 0, 0, 1, 1};
+  seen.insert(fingerprintOf(data));
+  EXPECT_EQ(seen.size(), 4u);
+}
+
 TEST(fingerprint, knows_the_ids_of_nodes_which_the_direct_index_has) {
   TreeData data = someTree();
   const std::uint64_t expected = fingerprintOf(data);

@@ -9,6 +9,7 @@
 #include <gslam/vocabulary/transform.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <opencv2/core.hpp>

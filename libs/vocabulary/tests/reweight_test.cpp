@@ -1,4 +1,5 @@
 // Weights from other images.
+#include <gslam/vocabulary/quality.h>
 #include <gslam/vocabulary/reweight.h>
 #include <gslam/vocabulary/train.h>
 #include <gtest/gtest.h>
@@ -6,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -115,6 +117,20 @@ TEST(reweight, refuses_what_does_not_fit) {
   null.count = 3;
   null.data = nullptr;
   EXPECT_THROW(reweighted(vocabulary, std::vector<Descriptors>(1, null)), ArgumentError);
+}
+
+TEST(reweight, refuses_numbers_that_are_none) {
+  std::vector<float> rows = {1, 2, 3, 4, 5, 6, 7, 8};
+  const std::vector<Descriptors> images(2, gslam::floatDescriptors(rows.data(), 4, 2));
+  const Vocabulary vocabulary = trainVocabulary(images);
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), 1.1e15f}) {
+    rows[5] = bad;
+    EXPECT_THROW(reweighted(vocabulary, images), ArgumentError);
+    EXPECT_THROW(reweighted(vocabulary, 2, [&](std::size_t i) { return images[i]; }),
+                 ArgumentError);
+    EXPECT_THROW(reweighted(vocabulary.withWeighting(gslam::Weighting::tf), images), ArgumentError);
+    EXPECT_THROW(qualityOf(vocabulary, images), ArgumentError);
+  }
 }
 
 }  // namespace

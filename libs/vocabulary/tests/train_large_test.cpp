@@ -1,4 +1,4 @@
-// A large tree: 20 000 words, or about a million with GSLAM_TRAIN_WORDS=1000000 (the full tier).
+// A large tree: 20 000 words, or about a million with GSLAM_TRAIN_WORDS=1000000 (in the full tier).
 #include <gslam/vocabulary/quality.h>
 #include <gslam/vocabulary/train.h>
 #include <gtest/gtest.h>

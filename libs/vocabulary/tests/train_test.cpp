@@ -373,6 +373,30 @@ TEST(train, tells_how_far_it_is) {
   EXPECT_EQ(parts.back(), 1);
 }
 
+// Nothing that takes long is silent: not the copies, the seeds of a large node and the weights.
+TEST(train, asks_in_every_phase) {
+  const auto images = binaryImages(20, 1000, 8, 2000, 1);
+  TrainingOptions options = optionsFor(30, 1);
+  options.most_iterations = 1;
+  std::size_t at_begin = 0, at_end = 0;
+  options.progress = [&](double part) {
+    at_begin += part == 0 ? 1 : 0;
+    at_end += part == 1 ? 1 : 0;
+    return true;
+  };
+  trainVocabulary(images.views(), options);
+  EXPECT_GE(at_begin, 20u + 29u);
+  EXPECT_GE(at_end, 20u);
+  for (const std::size_t end : {5u, 25u, 60u, 70u}) {  // in each of them
+    std::size_t calls = 0;
+    options.progress = [&](double) { return ++calls < end; };
+    TrainingReport report;
+    EXPECT_TRUE(trainVocabulary(images.views(), options, &report).empty());
+    EXPECT_TRUE(report.is_cancelled);
+    EXPECT_EQ(calls, end);
+  }
+}
+
 TEST(train, ends_when_it_is_told_to) {
   const auto images = binaryImages(35, 1000, 8, 2000, 1);
   for (const double end : {0.0, 0.1, 0.5, 1.0}) {
@@ -422,10 +446,29 @@ TEST(train, refuses_options_out_of_range) {
   options.most_iterations = 0;
   expectRefused(images.views(), options, "options.most_iterations is 0");
   options = TrainingOptions();
-  options.storage = DescriptorType::binary;
-  expectRefused(images.views(), options, "options.storage is binary");
-  options.storage = static_cast<DescriptorType>(9);
-  expectRefused(images.views(), options, "options.storage is unknown");
+  options.weighting = static_cast<gslam::Weighting>(4);
+  expectRefused(images.views(), options, "options.weighting is 4, expected 0 to 3");
+  options = TrainingOptions();
+  options.scoring = static_cast<gslam::Scoring>(6);
+  expectRefused(images.views(), options, "options.scoring is 6, expected 0 to 5");
+}
+
+TEST(train, refuses_storage_that_floats_have_not) {
+  const auto bits = binaryImages(2, 20, 8, 10, 1);
+  const auto numbers = floatImages(2, 20, 8, 10, 1);
+  for (const auto storage : {DescriptorType::binary, static_cast<DescriptorType>(9)}) {
+    TrainingOptions options;
+    options.storage = storage;
+    expectRefused(numbers.views(), options, "options.storage is ");
+    EXPECT_TRUE(areSame(trainVocabulary(bits.views(), options), trainVocabulary(bits.views())));
+  }
+}
+
+TEST(train, forgets_what_was_told_of_another_training) {
+  TrainingReport report;
+  report.images = 77;
+  EXPECT_THROW(trainVocabulary({}, optionsFor(1, 3), &report), ArgumentError);
+  EXPECT_EQ(report.images, 0u);
 }
 
 TEST(train, refuses_sets_without_descriptors) {
@@ -485,7 +528,7 @@ TEST(train, refuses_numbers_that_are_none) {
 }
 
 TEST(train, takes_large_and_small_numbers) {
-  for (const float scale : {1e12f, 1e-15f}) {
+  for (const float scale : {1e12f, 1e-15f, 1e-17f}) {
     auto images = floatImages(3, 100, 6, 10, 1);
     for (auto& image : images.rows) {
       for (float& number : image) number *= scale;

@@ -19,7 +19,7 @@ inline namespace v1 {
 /// Thread-safety: plain data.
 struct BowVector {
   std::vector<std::uint32_t> words;  ///< ascending, without repetition
-  std::vector<double> values;        ///< of each word; over 0
+  std::vector<double> values;        ///< of each word; 0 or more
 
   std::size_t size() const noexcept { return words.size(); }  ///< words that are there
   bool empty() const noexcept { return words.empty(); }       ///< whether there is none

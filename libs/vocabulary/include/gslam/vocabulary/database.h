@@ -50,6 +50,8 @@ inline bool operator!=(const QueryResult& a, const QueryResult& b) noexcept {  /
   return !(a == b);
 }
 
+class BowDatabase;
+
 namespace detail {
 
 struct BowDatabaseData {
@@ -57,6 +59,9 @@ struct BowDatabaseData {
   BowStore store;
   BowScratches scratches;
 };
+
+inline BowDatabase databaseFromBytes(const std::uint8_t* data, std::size_t size,
+                                     const std::string& source, std::uint64_t fingerprint);
 
 }  // namespace detail
 
@@ -72,13 +77,13 @@ struct BowDatabaseData {
 /// scoring: there are no approximations.
 ///
 /// Memory: 12 bytes for each word of an entry, and more for its place in the index: about 58 where
-/// most words are in one or two of few images, 35 with some thousand images.
+/// most words are in one or two of few images, 35 to 46 with some thousand images.
 ///
 /// Thread-safety: all but moving and destroying may be called by any number of threads at once.
 /// Queries do not wait for those who add and erase, and see each entry wholly or not at all; what
-/// is added or erased during a query may be in its results or not. To erase may take as long as to
-/// add 4096 entries, once in as many erasures. One that was moved from is good for nothing but to
-/// be destroyed and assigned to.
+/// is added or erased during a query may be in its results or not. To erase takes longer once in a
+/// while (as long as to add up to 4096 entries), when half of a part of the index is dead. One that
+/// was moved from is good for nothing but to be destroyed and assigned to.
 class BowDatabase {
  public:
   /// An empty one.
@@ -106,7 +111,7 @@ class BowDatabase {
     detail::checkArgument("features", features);
     const std::shared_ptr<detail::BowEntry> entry = std::make_shared<detail::BowEntry>();
     entry->bow = bow;
-    entry->features = features;
+    if (!features.empty()) entry->features = features;
     return data_->store.add(entry);
   }
 
@@ -167,10 +172,12 @@ class BowDatabase {
     detail::writeDatabase(path, facts, entries);
   }
 
-  /// For those who read files: see gslam/vocabulary/detail/database_file.h.
+ private:
+  friend BowDatabase detail::databaseFromBytes(const std::uint8_t* data, std::size_t size,
+                                               const std::string& source,
+                                               std::uint64_t fingerprint);
   explicit BowDatabase(std::unique_ptr<detail::BowDatabaseData> data) : data_(std::move(data)) {}
 
- private:
   struct CheckScoring {
     template <class Term>
     void operator()(Term) const noexcept {}

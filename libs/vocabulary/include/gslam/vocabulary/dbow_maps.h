@@ -3,10 +3,12 @@
 
 #include <gslam/base/error.h>
 #include <gslam/vocabulary/bow_vector.h>
+#include <gslam/vocabulary/detail/check_bow.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 /// @file
 /// Bags of words and lists of features to and from the std::map shapes of DBoW2 and DBoW3: for
@@ -30,12 +32,20 @@ std::uint32_t numberOfMap(const char* name, Number number) {
   return static_cast<std::uint32_t>(number);
 }
 
+// Of a map that is not in order, or has a key more than once.
+inline void checkKeys(const char* name, const std::vector<std::uint32_t>& keys) {
+  if (firstNotAscending(keys.data(), keys.size()) == keys.size()) return;
+  throw ArgumentError(name, "has keys that do not ascend");
+}
+
 }  // namespace detail
 
 /// A bag as a map.
 /// @tparam Map  from words to values: std::map<unsigned, double>, DBoW2::BowVector, ...
+/// @throws ArgumentError when it has not one value for each word
 template <class Map>
 Map toMap(const BowVector& bow) {
+  detail::checkSizes("bow", bow);
   Map map;
   for (std::size_t i = 0; i < bow.size(); ++i) {
     map.insert(map.end(),
@@ -48,8 +58,10 @@ Map toMap(const BowVector& bow) {
 /// Features by nodes as a map.
 /// @tparam Map  from nodes to lists of features: std::map<unsigned, std::vector<unsigned>>,
 ///              DBoW2::FeatureVector, ...
+/// @throws ArgumentError when nodes do not ascend, or lists do not fit each other
 template <class Map>
 Map toMap(const FeatureVector& features) {
+  detail::checkArgument("features", features);
   Map map;
   for (std::size_t i = 0; i < features.size(); ++i) {
     const typename Map::mapped_type list(features.features.data() + features.begins[i],
@@ -61,7 +73,7 @@ Map toMap(const FeatureVector& features) {
 }
 
 /// A bag from a map, into memory that it may have.
-/// @throws ArgumentError when a word does not fit 32 bits
+/// @throws ArgumentError when a word does not fit 32 bits, or words do not ascend
 template <class Map>
 void bowFromMap(const Map& map, BowVector& bow) {
   bow.clear();
@@ -69,9 +81,10 @@ void bowFromMap(const Map& map, BowVector& bow) {
     bow.words.push_back(detail::numberOfMap("word", item.first));
     bow.values.push_back(static_cast<double>(item.second));
   }
+  detail::checkKeys("map", bow.words);
 }
 /// A bag from a map.
-/// @throws ArgumentError when a word does not fit 32 bits
+/// @throws ArgumentError when a word does not fit 32 bits, or words do not ascend
 template <class Map>
 BowVector bowFromMap(const Map& map) {
   BowVector bow;
@@ -80,7 +93,7 @@ BowVector bowFromMap(const Map& map) {
 }
 
 /// Features by nodes from a map, into memory that they may have.
-/// @throws ArgumentError when a node or a feature does not fit 32 bits
+/// @throws ArgumentError when a node or a feature does not fit 32 bits, or nodes do not ascend
 template <class Map>
 void featuresFromMap(const Map& map, FeatureVector& features) {
   features.clear();
@@ -92,9 +105,10 @@ void featuresFromMap(const Map& map, FeatureVector& features) {
     }
     features.begins.push_back(static_cast<std::uint32_t>(features.features.size()));
   }
+  detail::checkKeys("map", features.nodes);
 }
 /// Features by nodes from a map.
-/// @throws ArgumentError when a node or a feature does not fit 32 bits
+/// @throws ArgumentError when a node or a feature does not fit 32 bits, or nodes do not ascend
 template <class Map>
 FeatureVector featuresFromMap(const Map& map) {
   FeatureVector features;

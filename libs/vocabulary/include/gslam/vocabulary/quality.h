@@ -110,7 +110,7 @@ struct ErrorSums {
 /// @param images      the descriptors of each; there may be none, then only the tree is described
 /// @param parallel    threads; its grain does not matter, nor does their number for the result
 /// @throws ArgumentError when the vocabulary is empty, or an image has descriptors of another kind
-///         or size, which it names
+///         or size, or a number that is not finite or over 1e15: it names the image
 inline VocabularyQuality qualityOf(const Vocabulary& vocabulary, Span<const Descriptors> images,
                                    const ParallelOptions& parallel = ParallelOptions()) {
   detail::requireWords(vocabulary);
@@ -125,6 +125,7 @@ inline VocabularyQuality qualityOf(const Vocabulary& vocabulary, Span<const Desc
       0, images.size(), detail::ErrorSums(),
       [&](std::size_t i, std::size_t) {
         detail::checkImage(images[i], i, format);
+        detail::checkNumbers(images[i], i);
         const std::vector<std::uint32_t> leaves = detail::leavesOf(vocabulary, images[i]);
         detail::ErrorSums part;
         for (std::size_t j = 0; j < leaves.size(); ++j) {

@@ -24,10 +24,10 @@ inline void requireWords(const Vocabulary& vocabulary) {
   if (vocabulary.empty()) throw ArgumentError("vocabulary", "is empty");
 }
 
-inline Vocabulary withWeights(const Vocabulary& vocabulary, const WordCounts* counts) {
+inline Vocabulary withWeights(const Vocabulary& vocabulary, const WordCounts& counts) {
   TreeData data = treeDataOf(vocabulary);
-  if (counts != nullptr) {
-    setWeights(*counts, data);
+  if (needsFrequency(vocabulary.weighting())) {
+    setWeights(counts, data);
   } else {
     std::fill(data.weights.begin(), data.weights.end(), 1.0);
   }
@@ -47,15 +47,16 @@ inline Vocabulary withWeights(const Vocabulary& vocabulary, const WordCounts* co
 /// @param image_count  how many images the source has
 /// @param image        gives them, once each
 /// @throws ArgumentError when the vocabulary is empty, or there are no images, or an image has
-///         descriptors of another kind or size, which it names
+///         descriptors of another kind or size, or a number that is not finite or over 1e15: it
+///         names the image
 inline Vocabulary reweighted(const Vocabulary& vocabulary, Span<const Descriptors> images,
                              const ParallelOptions& parallel = ParallelOptions()) {
   detail::requireWords(vocabulary);
   if (images.empty()) throw ArgumentError("images", "are none");
   detail::WordCounts counts(vocabulary);
-  detail::countWords(images, parallel, counts);
-  const bool needs_them = detail::needsFrequency(vocabulary.weighting());
-  return detail::withWeights(vocabulary, needs_them ? &counts : nullptr);
+  detail::countWords(
+      images, parallel, [] { return true; }, counts);
+  return detail::withWeights(vocabulary, counts);
 }
 inline Vocabulary reweighted(const Vocabulary& vocabulary, std::size_t image_count,
                              const ImageSource& image) {
@@ -63,8 +64,7 @@ inline Vocabulary reweighted(const Vocabulary& vocabulary, std::size_t image_cou
   if (image_count == 0) throw ArgumentError("images", "are none");
   detail::WordCounts counts(vocabulary);
   for (std::size_t i = 0; i < image_count; ++i) counts.add(image(i), i);
-  const bool needs_them = detail::needsFrequency(vocabulary.weighting());
-  return detail::withWeights(vocabulary, needs_them ? &counts : nullptr);
+  return detail::withWeights(vocabulary, counts);
 }
 /// @}
 

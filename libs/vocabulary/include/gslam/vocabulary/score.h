@@ -1,8 +1,8 @@
 #ifndef GSLAM_VOCABULARY_SCORE_H
 #define GSLAM_VOCABULARY_SCORE_H
 
-#include <gslam/base/error.h>
 #include <gslam/vocabulary/bow_vector.h>
+#include <gslam/vocabulary/detail/check_bow.h>
 #include <gslam/vocabulary/detail/common_words.h>
 #include <gslam/vocabulary/detail/score_terms.h>
 #include <gslam/vocabulary/weighting.h>
@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <string>
 
 /// @file
 /// How alike two bags of words are.
@@ -41,7 +40,7 @@ inline void normalize(BowVector& bow, Scoring scoring) noexcept {
   if (norm == BowNorm::none) return;
   double length = 0;
   for (const double value : bow.values) {
-    length += norm == BowNorm::l1 ? std::fabs(value) : value * value;
+    length += norm == BowNorm::l1 ? std::fabs(value) : detail::rounded(value * value);
   }
   if (norm == BowNorm::l2) length = std::sqrt(length);
   if (!(length > 0)) return;
@@ -55,12 +54,6 @@ inline bool isBetter(Scoring scoring, double score, double other) noexcept {
 }
 
 namespace detail {
-
-inline void checkSizes(const char* name, const BowVector& bow) {
-  if (bow.words.size() == bow.values.size()) return;
-  throw ArgumentError(name, "has " + std::to_string(bow.words.size()) + " words, but " +
-                                std::to_string(bow.values.size()) + " values");
-}
 
 struct ScoreAction {
   const BowVector& v;
@@ -90,12 +83,12 @@ struct ScoreAction {
 }  // namespace detail
 
 /// How alike two bags are: what DBoW2 and DBoW3 say, to the last bit, but for Scoring::kl, which
-/// agrees to 1e-13. Only words that are in both count. Scoring::kl alone takes a word that `w`
+/// agrees to 1e-12. Only words that are in both count. Scoring::kl alone takes a word that `w`
 /// lacks as one of 2^-52, and so depends on the order of the bags.
 ///
 /// Bags should have the length of normFor(): others give what the formulas of Scoring say.
-/// The same on all machines and SIMD variants, as far as the compiler does not fuse additions with
-/// multiplications, and std::log() is the same.
+/// The same on all machines and SIMD variants, as far as std::log() is the same and the compiler is
+/// not told to be careless (-ffast-math).
 ///
 /// Thread-safety: as far as the bags are not changed meanwhile.
 ///

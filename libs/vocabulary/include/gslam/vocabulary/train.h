@@ -27,20 +27,22 @@ inline namespace v1 {
 /// near centres the first counts, as in transform(). A child that is left without descriptors is
 /// moved to the one that is farthest from its centre. Equal descriptors never part: where there are
 /// no more than K different ones, each is a leaf; a node whose descriptors are all equal is one,
-/// too. So no two children are equal, and each word has been seen. Weights are those of
-/// reweighted() on the same images.
+/// too. So no two children are equal, and each word has been seen. Floats that differ by less than
+/// 1e-18 may count as equal: their squares are no floats. Weights are those of reweighted() on the
+/// same images.
 ///
 /// The result depends on the descriptors, their order, the options and the seed; not on the number
 /// of threads. Of binary descriptors it is the same with every SIMD variant. Of floats it may
 /// differ where a distance is rounded in another way.
 ///
-/// Descriptors are copied, and not changed. In memory there are then, of each, its bytes and 17
-/// more. From a source there may be more of them than fit. Then nodes with more descriptors than
-/// fit are split by a random sample of as many as do, and what is below them is trained on all of
-/// its descriptors, as many nodes in a pass as fit. That takes 3 passes over the images and one or
-/// two for each time that the descriptors fill options.memory. Where all fit it is the same as from
-/// memory, in 2 passes. Of a node with more equal descriptors than fit others may stay unseen, and
-/// become no words of their own.
+/// Descriptors are copied, and not changed. In memory there are then, of each, its bytes, rounded
+/// up to 8 for bits and to 16 for floats, and 9 more, for floats 17. From a source there may be
+/// more of them than fit. Then nodes with more descriptors than fit are split by a sample of as
+/// many as do: the root by a random one, others by an even part of theirs, in their order. What is
+/// below them is trained on all of its descriptors, as many nodes in a pass as fit. That takes 3
+/// passes over the images and one or two for each time that the descriptors fill options.memory.
+/// Where all fit it is the same as from memory, in 2 passes. Of a node with more equal descriptors
+/// than fit others may stay unseen, and become no words of their own.
 ///
 /// @param images       the descriptors of each; some images may have none
 /// @param image_count  how many images the source has

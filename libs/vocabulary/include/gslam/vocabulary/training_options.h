@@ -30,17 +30,19 @@ struct TrainingOptions {
   /// Most times that the descriptors of a node are assigned to its children anew, 1 or more
   std::uint32_t most_iterations = 100;
 
-  /// Bytes for the descriptors that are in memory at once, with what is noted of each. Only for
-  /// images from a source.
+  /// Bytes for the descriptors that are in memory at once, with what is noted of each: 17 more than
+  /// a row, also of bits. Only for images from a source. All of it is asked for at once
+  /// (std::bad_alloc where that is not to be had), but not touched before it is needed.
   std::size_t memory = std::size_t(1) << 30;
 
   /// Threads. They do not change the tree, and its grain does not matter.
   ParallelOptions parallel;
 
-  /// Called now and then with the part of the work that is done, from 0 to 1: after each node
-  /// that brings it to another hundredth, and in each iteration of a large node. It may be called
-  /// by any of the threads, but by one at a time. When it returns false, the training ends soon
-  /// after, with an empty vocabulary. What it throws comes out of trainVocabulary().
+  /// Called now and then with the part of the work that is done, from 0 to 1: with each image that
+  /// is read, after each node that brings it to another hundredth, and with each seed and iteration
+  /// of a large node. It may be called by any of the threads, but by one at a time. When it returns
+  /// false, the training ends soon after, with an empty vocabulary. What it throws comes out of
+  /// trainVocabulary().
   std::function<bool(double)> progress;
 };
 
@@ -49,7 +51,7 @@ struct TrainingReport {
   bool is_cancelled = false;           ///< whether the progress callback ended it
   std::uint64_t images = 0;            ///< of the set, with those without descriptors
   std::uint64_t descriptors = 0;       ///< of the set
-  std::uint32_t passes = 0;            ///< times that all images were read
+  std::uint32_t passes = 0;            ///< of the source; 1 from memory
   std::uint64_t iterations = 0;        ///< of all nodes together
   std::uint64_t unfinished_nodes = 0;  ///< whose children still changed after the most iterations
   std::uint64_t moved_centres = 0;     ///< children without descriptors that were given some

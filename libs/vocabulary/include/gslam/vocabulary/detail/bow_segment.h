@@ -119,13 +119,14 @@ class BowSegment {
     std::uint32_t places[kAhead];
     double values[kAhead];
     for (std::size_t begin = 0; begin < size; begin += kAhead) {
-      const std::size_t count = std::min(kAhead, size - begin);
+      const std::size_t count = std::min<std::size_t>(kAhead, size - begin);
       if (begin == 0) prefetchSlots(table, words, count);
       for (std::size_t i = 0; i < count; ++i) {
         places[i] = table.find(words[begin + i], values[i]);
         if (isList(places[i])) prefetch(memory_.at(places[i]));
       }
-      prefetchSlots(table, words + begin + count, std::min(kAhead, size - begin - count));
+      prefetchSlots(table, words + begin + count,
+                    std::min<std::size_t>(kAhead, size - begin - count));
       for (std::size_t i = 0; i < count; ++i) {
         if (isList(places[i])) prefetchMore(places[i]);
       }
@@ -145,7 +146,8 @@ class BowSegment {
 
  private:
   static constexpr std::uint32_t kPage = 256;
-  static constexpr std::size_t kAhead = 32;  // words whose lists are fetched together
+  // Words whose lists are fetched together; needs no definition in C++11.
+  enum : std::size_t { kAhead = 32 };
 
   static void prefetchSlots(const WordTable& table, const std::uint32_t* words,
                             std::size_t count) noexcept {

@@ -23,6 +23,13 @@ inline std::size_t firstNotAscending(const std::uint32_t* numbers, std::size_t s
   return size;
 }
 
+// Throws ArgumentError.
+inline void checkSizes(const char* name, const BowVector& bow) {
+  if (bow.words.size() == bow.values.size()) return;
+  throw ArgumentError(name, "has " + std::to_string(bow.words.size()) + " words, but " +
+                                std::to_string(bow.values.size()) + " values");
+}
+
 // What is wrong, as a part of a sentence; empty: nothing.
 inline std::string problemOf(const BowVector& bow) {
   if (bow.words.size() != bow.values.size()) {

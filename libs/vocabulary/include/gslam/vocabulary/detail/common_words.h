@@ -4,6 +4,7 @@
 
 #include <gslam/base/simd.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -164,7 +165,8 @@ inline std::size_t findCommonAvx2(WordLists& lists, CommonWords& found) {
           signsAvx2(_mm256_or_si256(straight.inY(), _mm256_permute2x128_si256(other, other, 1)));
       writePlacesAvx2(found.in_a + count, i, in_a);
       writePlacesAvx2(found.in_b + count, j, in_b);
-      count += static_cast<unsigned>(_mm_popcnt_u32(in_a));
+      // They are as many, but where a list has a word twice; behind the fewer nothing was written.
+      count += static_cast<unsigned>(std::min(_mm_popcnt_u32(in_a), _mm_popcnt_u32(in_b)));
     }
     const std::uint32_t x_end = lists.a[i + 7];
     const std::uint32_t y_end = lists.b[j + 7];

@@ -37,17 +37,18 @@ inline std::vector<std::size_t> firstRows(Span<const Descriptors> images,
   return first_rows;
 }
 
-// Copies images side by side, and returns the range of their numbers.
+// Copies images side by side, and returns the range of their numbers; not all when the training is
+// cancelled.
 inline FloatRange copyImages(Span<const Descriptors> images,
-                             const std::vector<std::size_t>& first_rows,
-                             const ParallelOptions& parallel, RowBuffer& rows) {
-  ParallelOptions options = parallel;
+                             const std::vector<std::size_t>& first_rows, Training& training,
+                             RowBuffer& rows) {
+  ParallelOptions options = training.options.parallel;
   options.grain = 4;
   return parallelReduce(
       0, images.size(), FloatRange(),
       [&](std::size_t first, std::size_t end) {
         FloatRange range;
-        for (std::size_t i = first; i < end; ++i) {
+        for (std::size_t i = first; i < end && training.progress.goesOn(); ++i) {
           for (std::size_t j = 0; j < images[i].count; ++j) {
             std::uint8_t* const row = rows.row(first_rows[i] + j);
             copyRow(images[i], i, j, row, rows.stride());
@@ -70,19 +71,24 @@ inline Vocabulary trainFromMemory(Span<const Descriptors> images, Training& trai
   const std::vector<std::size_t> first_rows = firstRows(images, format);
   const std::size_t count = first_rows.back();
   checkCount(count, training.options.depth);
+  checkStorage(training.options.storage, format);
   training.report.images = images.size();
   training.report.descriptors = count;
   training.report.passes = 1;
   {
     RowBuffer rows(count, strideOf(format));
-    training.setFormat(format, copyImages(images, first_rows, training.options.parallel, rows));
     training.progress.setTotal(std::uint64_t(count) * training.options.depth);
-    const std::vector<std::uint8_t> some_row(rows.row(0), rows.row(0) + rows.stride());
-    training.grow(rows.row(0), std::vector<GrowingNode>(1, training.root(count)));
-    growOnlyChild(training.settings, some_row.data(), training.tree);
+    training.setFormat(format, copyImages(images, first_rows, training, rows));
+    if (!training.progress.isCancelled()) {
+      const std::vector<std::uint8_t> some_row(rows.row(0), rows.row(0) + rows.stride());
+      training.grow(rows.row(0), std::vector<GrowingNode>(1, training.root(count)));
+      growOnlyChild(training.settings, some_row.data(), training.tree);
+    }
   }
-  return training.finish(
-      [&](WordCounts& counts) { countWords(images, training.options.parallel, counts); });
+  return training.finish([&](WordCounts& counts) {
+    countWords(
+        images, training.options.parallel, [&] { return training.progress.goesOn(); }, counts);
+  });
 }
 
 }  // namespace detail

@@ -39,7 +39,7 @@ static_assert(sizeof(PostingBlock) == 8, "values follow it");
 class PostingMemory {
  public:
   static constexpr std::size_t kLine = 64;
-  static constexpr unsigned kMostLines = 32;  // of a block: 204 entries
+  enum : unsigned { kMostLines = 32 };  // of a block: 204 entries; needs no definition in C++11
 
   // Whether so many blocks of any size can be made.
   bool hasRoomFor(std::size_t blocks) const noexcept {
@@ -48,7 +48,7 @@ class PostingMemory {
 
   // Nothing changes where this throws.
   std::uint32_t make(std::uint32_t older) {
-    const unsigned lines = older == 0 ? 1 : std::min(kMostLines, 2 * linesOf(*at(older)));
+    const unsigned lines = older == 0 ? 1 : std::min<unsigned>(kMostLines, 2 * linesOf(*at(older)));
     if (chunks_ == 0 || sizeOf(chunks_ - 1) - end_ < lines) addChunk();
     const std::uint32_t place = static_cast<std::uint32_t>((chunks_ - 1) << kOffsetBits | end_);
     PostingBlock* const block = new (bytesAt(place)) PostingBlock;

@@ -117,6 +117,9 @@ class NodeSplitter {
 
   std::uint8_t* row(std::size_t i) const noexcept { return rows_ + i * stride_; }
 
+  // Whether one look at all rows takes so long that the callback should be asked.
+  bool isBig() const noexcept { return chunks_ > 8; }
+
   // Returns whether there is no row but the seeds and those equal to one. Each row has the label
   // of its nearest seed.
   bool chooseSeeds(std::uint64_t seed) {
@@ -127,6 +130,7 @@ class NodeSplitter {
       double total = 0;
       for (const double sum : chunk_sums_) total += sum;
       if (!(total > 0)) return true;
+      if (isBig()) progress_.ask();
       if (clusters_ == settings_.clusters || progress_.isCancelled()) return false;
       takeSeed(rowAt(random.unit() * total));
     }
@@ -172,11 +176,10 @@ class NodeSplitter {
   }
 
   void refine() {
-    const bool is_big = chunks_ > 8;
     sumAll();
     if (!is_binary_) bounds_.begin(count_, clusters_);
     for (std::uint32_t i = 0; i < settings_.most_iterations; ++i) {
-      if (is_big) progress_.ask();
+      if (isBig()) progress_.ask();
       if (progress_.isCancelled()) return;
       ++counts_.iterations;
       fillEmptyClusters();

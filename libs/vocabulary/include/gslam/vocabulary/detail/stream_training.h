@@ -56,8 +56,7 @@ class StreamTraining {
   void pass(const Visitor& visit) {
     ++training_.report.passes;
     for (std::size_t i = 0; i < image_count_; ++i) {
-      training_.progress.ask();
-      if (isCancelled()) return;
+      if (!training_.progress.goesOn()) return;
       visit(image_(i), i);
     }
   }
@@ -90,6 +89,7 @@ class StreamTraining {
   void makeRoom(const Descriptors& image, std::size_t number) {
     checkDescriptorSize(image, number);
     format_ = rowFormat(image);
+    checkStorage(training_.options.storage, format_);
     const std::size_t stride = strideOf(format_);
     const std::size_t per_row = stride + 17;
     const std::size_t least = std::size_t(kLeastPerChild) * training_.options.branching;

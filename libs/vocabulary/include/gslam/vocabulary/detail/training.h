@@ -32,12 +32,22 @@ inline void checkOptions(const TrainingOptions& options) {
     refuse("options.depth", options.depth, "1 to 64");
   }
   if (options.most_iterations < 1) refuse("options.most_iterations", 0, "1 or more");
-  if (options.storage != DescriptorType::float32 && options.storage != DescriptorType::float16 &&
-      options.storage != DescriptorType::int8) {
-    throw ArgumentError("options.storage", std::string("is ") +
-                                               descriptorTypeName(options.storage) +
-                                               ", expected float32, float16 or int8");
+  if (options.weighting > Weighting::binary) {
+    refuse("options.weighting", static_cast<std::uint64_t>(options.weighting), "0 to 3");
   }
+  if (options.scoring > Scoring::dot) {
+    refuse("options.scoring", static_cast<std::uint64_t>(options.scoring), "0 to 5");
+  }
+}
+
+// Bits stay what they are.
+inline void checkStorage(DescriptorType storage, const DescriptorFormat& rows) {
+  if (rows.type == DescriptorType::binary || storage == DescriptorType::float32 ||
+      storage == DescriptorType::float16 || storage == DescriptorType::int8) {
+    return;
+  }
+  throw ArgumentError("options.storage", std::string("is ") + descriptorTypeName(storage) +
+                                             ", expected float32, float16 or int8 for floats");
 }
 
 // Each descriptor may be a node in each level.
@@ -60,8 +70,8 @@ inline void checkDescriptorSize(const Descriptors& image, std::size_t number) {
 struct Training {
   Training(const TrainingOptions& wanted, TrainingReport& told)
       : options(wanted), report(told), progress(wanted.progress) {
-    checkOptions(options);
     report = TrainingReport();
+    checkOptions(options);
   }
 
   // Of rows of this format.

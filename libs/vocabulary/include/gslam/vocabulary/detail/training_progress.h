@@ -31,6 +31,12 @@ class TrainingProgress {
     if (before / step != (before + work) / step) ask();
   }
 
+  // Asks the callback, and says whether to go on.
+  bool goesOn() {
+    ask();
+    return !isCancelled();
+  }
+
   // Asks the callback whether to go on.
   void ask() {
     if (!callback_) return;

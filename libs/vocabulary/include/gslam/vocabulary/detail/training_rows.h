@@ -13,6 +13,7 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace gslam {
 inline namespace v1 {
@@ -70,6 +71,16 @@ inline bool areSoundFloats(const float* numbers, std::size_t count) noexcept {
   throw ArgumentError(imageName(image), "has the number " + std::to_string(numbers[i]) +
                                             " in descriptor " + std::to_string(row) +
                                             ", expected finite ones of at most 1e15");
+}
+
+// Throws ArgumentError unless all numbers of an image, which was checked else, are sound.
+inline void checkNumbers(const Descriptors& image, std::size_t number) {
+  if (image.is_binary) return;
+  std::vector<float> row(image.size);
+  for (std::size_t i = 0; i < image.count; ++i) {
+    std::memcpy(row.data(), image.row(i), image.size * sizeof(float));
+    if (!areSoundFloats(row.data(), image.size)) refuseFloats(row.data(), image.size, number, i);
+  }
 }
 
 // Writes row i of an image and zeros behind it; `number` is that of the image.

@@ -37,7 +37,11 @@ inline std::vector<std::uint32_t> leavesOf(const Vocabulary& vocabulary, const D
   return nodes;
 }
 
-// In how many images each word is. Thread-safe.
+inline bool needsFrequency(Weighting weighting) noexcept {
+  return weighting == Weighting::tf_idf || weighting == Weighting::idf;
+}
+
+// In how many images each word is, where the weighting asks for it. Thread-safe.
 class WordCounts {
  public:
   explicit WordCounts(const Vocabulary& vocabulary)
@@ -47,6 +51,8 @@ class WordCounts {
   void add(const Descriptors& image, std::size_t number) {
     images_.fetch_add(1, std::memory_order_relaxed);
     checkImage(image, number, format_);
+    checkNumbers(image, number);
+    if (!needsFrequency(vocabulary_.weighting())) return;
     std::vector<std::uint32_t> nodes = leavesOf(vocabulary_, image);
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -70,16 +76,16 @@ class WordCounts {
   std::atomic<std::uint64_t> images_{0};
 };
 
-inline void countWords(Span<const Descriptors> images, const ParallelOptions& parallel,
-                       WordCounts& counts) {
+// An image is left out where `goes_on()` says no.
+template <class GoesOn>
+void countWords(Span<const Descriptors> images, const ParallelOptions& parallel,
+                const GoesOn& goes_on, WordCounts& counts) {
   ParallelOptions one_by_one = parallel;
   one_by_one.grain = 1;
-  parallelFor(
-      0, images.size(), [&](std::size_t i) { counts.add(images[i], i); }, one_by_one);
-}
-
-inline bool needsFrequency(Weighting weighting) noexcept {
-  return weighting == Weighting::tf_idf || weighting == Weighting::idf;
+  const auto count = [&](std::size_t i) {
+    if (goes_on()) counts.add(images[i], i);
+  };
+  parallelFor(0, images.size(), count, one_by_one);
 }
 
 // Weights of nodes that have words.

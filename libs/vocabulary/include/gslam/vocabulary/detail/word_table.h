@@ -2,7 +2,10 @@
 #ifndef GSLAM_VOCABULARY_DETAIL_WORD_TABLE_H
 #define GSLAM_VOCABULARY_DETAIL_WORD_TABLE_H
 
+#include <gslam/vocabulary/detail/random.h>
+
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -33,15 +36,20 @@ class WordTable {
     mask_ = (std::size_t(1) << bits) - 1;
     shift_ = 64 - bits;
     slots_.reset(new WordSlot[mask_ + 1]);
+    const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
+    const auto where = static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(slots_.get()));
+    factor_ = SplitMix64(static_cast<std::uint64_t>(now) ^ SplitMix64(where).next()).next() | 1;
   }
-  // A larger one with the same content.
+  // A larger one with the same content, in the same order, so that memory is written from one end
+  // to the other.
   WordTable(const WordTable& other, std::size_t words) : WordTable(words) {
+    factor_ = other.factor_;
     entries_.store(other.entries(), std::memory_order_relaxed);
     for (std::size_t i = 0; i <= other.mask_; ++i) {
       const std::uint64_t head = other.slots_[i].head.load(std::memory_order_relaxed);
       if (head == 0) continue;
       const auto word = static_cast<std::uint32_t>(head >> 32);
-      slots_[slotOf(word)].value = other.slots_[i].value;
+      slotOf(word).value = other.slots_[i].value;
       set(word, static_cast<std::uint32_t>(head));
     }
   }
@@ -52,8 +60,8 @@ class WordTable {
   // The lower half of the head; 0 for a word that is not there. The value is only set where it is
   // that of the one entry.
   std::uint32_t find(std::uint32_t word, double& value) const noexcept {
-    const WordSlot& slot = slots_[slotOf(word)];
-    const std::uint64_t head = slot.head.load(std::memory_order_acquire);
+    std::uint64_t head;
+    const WordSlot& slot = slotOf(word, head);
     if (head == 0) return 0;
     const auto where = static_cast<std::uint32_t>(head);
     if ((where & WordSlot::kOneEntry) != 0) value = slot.value;
@@ -61,12 +69,13 @@ class WordTable {
   }
   // A word that is new, with its first entry. There must be room.
   void add(std::uint32_t word, std::uint32_t entry, double value) noexcept {
-    slots_[slotOf(word)].value = value;
+    slotOf(word).value = value;
     set(word, WordSlot::kOneEntry | entry);
   }
   void set(std::uint32_t word, std::uint32_t where) noexcept {
-    WordSlot& slot = slots_[slotOf(word)];
-    if (slot.head.load(std::memory_order_relaxed) == 0) ++used_;
+    std::uint64_t head;
+    WordSlot& slot = slotOf(word, head);
+    if (head == 0) ++used_;
     slot.head.store(std::uint64_t(word) << 32 | where, std::memory_order_release);
   }
   // Where find() will look.
@@ -80,20 +89,27 @@ class WordTable {
   }
 
  private:
+  // Tables have factors that nobody can foretell: else bags could be made whose words all want
+  // the same slots, and a small file would take minutes.
   std::size_t hashOf(std::uint32_t word) const noexcept {
-    return static_cast<std::size_t>(word * 0x9E3779B97F4A7C15u >> shift_);
+    const std::uint64_t product = word * factor_;
+    return static_cast<std::size_t>((product ^ product >> 32) * 0x9E3779B97F4A7C15u >> shift_);
   }
-  // Its own, or the free one that it would get.
-  std::size_t slotOf(std::uint32_t word) const noexcept {
-    std::size_t i = hashOf(word);
-    for (;; i = (i + 1) & mask_) {
-      const std::uint64_t head = slots_[i].head.load(std::memory_order_relaxed);
-      if (head == 0 || head >> 32 == word) return i;
+  // Its own, or the free one that it would get; and the head that tells which.
+  WordSlot& slotOf(std::uint32_t word, std::uint64_t& head) const noexcept {
+    for (std::size_t i = hashOf(word);; i = (i + 1) & mask_) {
+      head = slots_[i].head.load(std::memory_order_acquire);
+      if (head == 0 || head >> 32 == word) return slots_[i];
     }
+  }
+  WordSlot& slotOf(std::uint32_t word) const noexcept {
+    std::uint64_t head;
+    return slotOf(word, head);
   }
 
   std::size_t mask_;
   unsigned shift_;
+  std::uint64_t factor_;
   std::unique_ptr<WordSlot[]> slots_;
   std::size_t used_ = 0;
   std::atomic<std::uint32_t> entries_{0};
