@@ -242,12 +242,13 @@ TEST_F(VocabularyFile, OfAnotherOrderOfBytesIsTheSame) {
   }
 }
 
-// What was not verified may be wrong, but must not be read beyond.
+// What was not verified may be wrong, but must not be read beyond, nor have kernels write beyond
+// their room for the children of a node.
 TEST_F(VocabularyFile, DamagedAndNotVerifiedStaysInItsMemory) {
-  const gslam::Descriptors none;
-  for (const bool has_ids : {false, true}) {
-    gslam::detail::TreeData data =
-        random_tree::dataOf(formatOf(DescriptorType::binary, 32), 6, 4, true);
+  for (const int kind : {0, 1, 2, 3, 4}) {
+    const auto type = static_cast<DescriptorType>(kind % 4);
+    const bool has_ids = kind == 4;
+    gslam::detail::TreeData data = random_tree::dataOf(formatOf(type, 32), 18, 3, true);
     if (has_ids) {
       for (std::size_t i = 0; i < data.parents.size(); ++i) {
         data.ids.push_back(static_cast<std::uint32_t>(data.parents.size() - i));
@@ -257,24 +258,56 @@ TEST_F(VocabularyFile, DamagedAndNotVerifiedStaysInItsMemory) {
       }
     }
     const Vocabulary whole = gslam::detail::buildVocabulary(data, "made");
-    const std::vector<std::uint8_t> queries = random_tree::queriesLike(whole, 200);
+    const std::vector<std::uint8_t> bits = random_tree::queriesLike(whole, 200);
+    const std::vector<float> numbers = random_tree::floats(200 * 32);
+    const gslam::Descriptors queries = type == DescriptorType::binary
+                                           ? gslam::binaryDescriptors(bits.data(), 200, 32)
+                                           : gslam::floatDescriptors(numbers.data(), 200, 32);
     saveVocabulary(whole, path());
     const std::string bytes = bytesOfFile(path());
     std::mt19937 random(4);
-    for (int trial = 0; trial < 50; ++trial) {
+    for (int trial = 0; trial < 30; ++trial) {
       std::string damaged = bytes;
       for (int i = 0; i < 2000; ++i) {
         damaged[256 + random() % (damaged.size() - 256)] = static_cast<char>(random());
+      }
+      if (trial % 2 == 0) {  // the root has 255 children, and they are there
+        damaged = bytes;
+        damaged[256 + (whole.nodeCount() * 4UL + 63) / 64 * 64] = '\xFF';
       }
       write(damaged);
       const Vocabulary opened = gslam::openVocabulary(path());
       gslam::BowVector bow;
       gslam::FeatureVector features;
-      transform(opened, gslam::binaryDescriptors(queries.data(), 200, 32), 2, bow, features);
+      transform(opened, queries, 2, bow, features);
       for (const std::uint32_t word : bow.words) ASSERT_LT(word, opened.wordCount());
       ASSERT_THROW(verifyVocabulary(opened), gslam::ParseError);
     }
   }
+}
+
+// Each node is the child of the one before: a way down is as long as there are nodes.
+TEST_F(VocabularyFile, DamagedAndNotVerifiedIsNoDeeperThanItSays) {
+  const Vocabulary whole = treeOf(formatOf(DescriptorType::binary, 32), 10, 3);
+  saveVocabulary(whole, path());
+  std::string bytes = bytesOfFile(path());
+  const std::size_t counts = 256 + (whole.nodeCount() * 4UL + 63) / 64 * 64;
+  for (std::uint32_t node = 0; node + 1 < whole.nodeCount(); ++node) {
+    const std::uint32_t next = node + 1;
+    std::memcpy(&bytes[256 + node * 4UL], &next, 4);
+    bytes[counts + node] = 1;
+  }
+  write(bytes);
+  const Vocabulary chain = gslam::openVocabulary(path());
+  const std::vector<std::uint8_t> queries = random_tree::queriesLike(whole, 10);
+  const gslam::Descriptors descriptors = gslam::binaryDescriptors(queries.data(), 10, 32);
+  std::vector<std::uint32_t> words(10);
+  findWords(chain, descriptors, words);
+  EXPECT_EQ(words, std::vector<std::uint32_t>(10, gslam::detail::kNone));
+  gslam::BowVector bow;
+  gslam::FeatureVector features;
+  transform(chain, descriptors, 1, bow, features);
+  EXPECT_TRUE(bow.empty());
 }
 
 // Every number that a checksum does not protect.
