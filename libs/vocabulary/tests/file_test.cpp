@@ -1,5 +1,7 @@
 // GSLAM's own files: there and back, and damaged in every way.
 #include <gslam/vocabulary/file.h>
+#include <gslam/vocabulary/load.h>
+#include <gslam/vocabulary/orb_slam_text.h>
 #include <gslam/vocabulary/transform.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -13,6 +15,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -157,6 +160,24 @@ TEST_F(VocabularyFile, WithABitFlippedAnywhereIsRefused) {
   }
 }
 
+// A copy of a file has its checksum, too; and what is damaged gets none that fits.
+TEST_F(VocabularyFile, DamagedIsSeenInMemoryAndNotWrittenAnew) {
+  saveVocabulary(treeOf(formatOf(DescriptorType::binary, 4), 2, 2), path());
+  std::string bytes = bytesOfFile(path());
+  const auto inMemory = [&bytes] {
+    const auto* const data = reinterpret_cast<const std::uint8_t*>(bytes.data());
+    return gslam::loadVocabulary(gslam::Span<const std::uint8_t>(data, bytes.size()), "bytes");
+  };
+  EXPECT_NO_THROW(verifyVocabulary(inMemory()));
+  bytes[bytes.size() - 8] = static_cast<char>(bytes[bytes.size() - 8] ^ 1);
+  EXPECT_THROW(verifyVocabulary(inMemory()), gslam::ParseError);
+  write(bytes);
+  EXPECT_THROW(saveVocabulary(gslam::openVocabulary(path()), path()), gslam::ParseError);
+  EXPECT_THROW(saveVocabulary(inMemory().withScoring(gslam::Scoring::l2), path()),
+               gslam::ParseError);
+  EXPECT_EQ(bytesOfFile(path()), bytes);
+}
+
 // Who makes the checksum fit must say something possible, too.
 TEST_F(VocabularyFile, WithAnImpossibleHeaderIsRefused) {
   saveVocabulary(treeOf(formatOf(DescriptorType::binary, 32), 3, 3), path());
@@ -180,6 +201,38 @@ TEST_F(VocabularyFile, WithAnImpossibleHeaderIsRefused) {
   expect(withField<std::uint32_t>(bytes, 48, 40), "number of words 40");
   expect(withField<std::uint32_t>(bytes, 52, 0), "number of weights 0");
   expect(withField<std::uint64_t>(bytes, 64, ~std::uint64_t(0)), "header asks for");
+  saveVocabulary(treeOf(formatOf(DescriptorType::int8, 32), 3, 3), path());
+  const std::string steps = bytesOfFile(path());
+  ASSERT_EQ(complaintAbout(withField<float>(steps, 28, -0.5F)), "");
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (const float scale : {nan, infinity, 0.0F, 3e38F}) {
+    expect(withField<float>(steps, 28, scale), "the scale");
+  }
+  for (const float offset : {nan, -infinity}) {
+    expect(withField<float>(steps, 32, offset), "the offset");
+  }
+}
+
+// Kernels read zeros behind a descriptor, and numbers in it.
+TEST_F(VocabularyFile, WithDescriptorsThatKernelsCannotCompareIsRefused) {
+  const auto expect = [this](DescriptorType type, std::size_t at, const std::string& written,
+                             const std::string& said) {
+    const Vocabulary vocabulary = treeOf(formatOf(type, 30), 3, 3);
+    saveVocabulary(vocabulary, path());
+    std::string bytes = bytesOfFile(path());
+    const gslam::detail::TreeView& tree = vocabulary.tree();
+    bytes.replace(bytes.size() - (tree.node_count - 7UL) * tree.stride + at, written.size(),
+                  written);
+    const auto* const body = reinterpret_cast<const std::uint8_t*>(bytes.data()) + 256;
+    bytes = withField(bytes, 240, gslam::detail::Xxh64::of(body, bytes.size() - 256));
+    EXPECT_EQ(complaintAbout(bytes, false), "");
+    EXPECT_EQ(complaintAbout(bytes), path() + ": node 7 has " + said);
+  };
+  expect(DescriptorType::binary, 30, "\x01", "bytes other than 0 behind its descriptor");
+  expect(DescriptorType::int8, 31, "\x80", "bytes other than 0 behind its descriptor");
+  expect(DescriptorType::float32, 29 * 4 + 2, "\x80\xFF", "a descriptor that is not finite");
+  expect(DescriptorType::float16, 29 * 2, {0, 0x7C}, "a descriptor that is not finite");
 }
 
 // As a machine with another order of bytes writes it, by docs/formats/vocabulary.md.
@@ -282,6 +335,9 @@ TEST_F(VocabularyFile, DamagedAndNotVerifiedStaysInItsMemory) {
       transform(opened, queries, 2, bow, features);
       for (const std::uint32_t word : bow.words) ASSERT_LT(word, opened.wordCount());
       ASSERT_THROW(verifyVocabulary(opened), gslam::ParseError);
+      if (type == DescriptorType::binary) {
+        ASSERT_THROW(saveOrbSlamText(opened, path() + ".txt"), gslam::ParseError);
+      }
     }
   }
 }
@@ -350,6 +406,17 @@ TEST(tree_checker, SeesEveryFault) {
   EXPECT_NE(check(3, 0, 1), "sound");
   EXPECT_NE(check(3, 7, 40), "sound");
   EXPECT_NE(check(4, 0, 2), "sound");
+}
+
+// Every node is some node's child, but the root is a leaf.
+TEST(tree_checker, SeesThatTheRootIsNoParent) {
+  const Vocabulary vocabulary = treeOf(formatOf(DescriptorType::binary, 4), 2, 1);
+  gslam::detail::TreeView tree = vocabulary.tree();
+  const std::uint32_t links[] = {0, 1, 1};
+  const std::uint8_t counts[] = {0, 2, 0};
+  tree.links = links;
+  tree.child_counts = counts;
+  EXPECT_THROW(gslam::detail::TreeChecker(tree, "tree").check(), gslam::ParseError);
 }
 
 }  // namespace

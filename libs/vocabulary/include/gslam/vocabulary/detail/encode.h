@@ -29,6 +29,29 @@ inline float floatOfStep(const DescriptorFormat& format, std::int8_t step) noexc
                             static_cast<double>(format.scale) * static_cast<double>(step));
 }
 
+// Whether the numbers of int8 are finite, and not all the same.
+inline bool hasSoundSteps(const DescriptorFormat& format) noexcept {
+  return format.type != DescriptorType::int8 ||
+         (format.scale != 0 && std::isfinite(floatOfStep(format, -128)) &&
+          std::isfinite(floatOfStep(format, 127)));
+}
+
+// Whether the numbers of a row are; those of int8 are as its format.
+inline bool isFiniteRow(const DescriptorFormat& format, const std::uint8_t* row) noexcept {
+  const std::size_t size = format.size;
+  for (std::size_t i = 0; i < size && format.type == DescriptorType::float32; ++i) {
+    float value;
+    std::memcpy(&value, row + 4 * i, 4);
+    if (!std::isfinite(value)) return false;
+  }
+  for (std::size_t i = 0; i < size && format.type == DescriptorType::float16; ++i) {
+    std::uint16_t half;
+    std::memcpy(&half, row + 2 * i, 2);
+    if ((half & 0x7C00u) == 0x7C00u) return false;
+  }
+  return true;
+}
+
 // Writes bytesOf(format) for as many floats as the format has, which is not binary.
 inline void encodeFloats(const DescriptorFormat& format, const float* from, std::uint8_t* to) {
   if (format.type == DescriptorType::float32) {
