@@ -101,10 +101,12 @@ GSLAM_COLD inline Choice settleExactly(const DescriptorFormat& format, std::size
   return Choice{best, static_cast<float>(least)};
 }
 
-// How far kernels read a number from what it is: they round, and a compiler may fuse.
-inline float decodingError(const DescriptorFormat& format) {
-  if (format.type != DescriptorType::int8) return 0;
-  return 2.4e-7f * (std::abs(format.offset) + 128 * std::abs(format.scale));
+// Kernels read numbers of int8 a little beside what they are, as they round and a compiler may
+// fuse: what a limit of squares of distances becomes by that.
+GSLAM_COLD inline float withDecodingError(const DescriptorFormat& format, float limit) {
+  const float error = 2.4e-7f * (std::abs(format.offset) + 128 * std::abs(format.scale));
+  const float root = std::sqrt(limit) + 2 * error * std::sqrt(static_cast<float>(format.size));
+  return root * root;
 }
 
 // Rounding may exchange rows that are nearly equally near, and each variant rounds in its own way:
@@ -119,13 +121,8 @@ inline Choice settle(const DescriptorFormat& format, std::size_t stride, const V
   }
   const auto size = static_cast<float>(format.size);
   const float error = (size + 4) * 1.2e-7f;
-  const float decoding = decodingError(format);
-  float limit = distances[best];
-  if (decoding != 0) {
-    const float root = std::sqrt(limit) + 2 * decoding * std::sqrt(size);
-    limit = root * root;
-  }
-  limit = limit * (1 + 2 * error) + 4 * size * FLT_MIN;
+  float limit = distances[best] * (1 + 2 * error) + 4 * size * FLT_MIN;
+  if (format.type == DescriptorType::int8) limit = withDecodingError(format, limit);
   std::uint32_t rivals = 0;
   for (std::uint32_t c = 0; c < visit.count; ++c) {
     if (!(distances[c] > limit)) ++rivals;
