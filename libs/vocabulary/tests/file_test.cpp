@@ -136,6 +136,13 @@ TEST_F(VocabularyFile, OfNothingIsRefused) {
   EXPECT_NE(complaintAbout("").find("no vocabulary of GSLAM"), std::string::npos);
 }
 
+// Without anybody who writes into it, which would take for ever.
+TEST_F(VocabularyFile, OfAPipeIsRefused) {
+  ASSERT_EQ(mkfifo(path().c_str(), 0600), 0);
+  EXPECT_THROW(gslam::openVocabulary(path()), gslam::FileError);
+  EXPECT_THROW(gslam::loadVocabulary(path()), gslam::FileError);
+}
+
 TEST_F(VocabularyFile, CutOffAnywhereIsRefused) {
   saveVocabulary(treeOf(formatOf(DescriptorType::binary, 4), 2, 2), path());
   const std::string bytes = bytesOfFile(path());

@@ -35,14 +35,15 @@ inline void saveVocabulary(const Vocabulary& vocabulary, const std::string& path
   file.commit();
 }
 
-/// Opens a file of saveVocabulary(): it is mapped, not read. The header is checked, and that the
-/// file is as long as it says; the rest is not touched. A file that is damaged there gives wrong
-/// words, but no crash; verifyVocabulary() tells. A file of a machine with another order of bytes
-/// is read, checked and copied.
+/// Opens a file of saveVocabulary(): it is mapped, not read (but on systems without mmap). The
+/// header is checked, and that the file is as long as it says; the rest is not touched. A file that
+/// is damaged there gives wrong words, but no crash; verifyVocabulary() tells. A file of a machine
+/// with another order of bytes is read, checked and copied.
 ///
 /// Nobody may write into the file while it is open; to replace it, as saveVocabulary() does, is
 /// all right. Where somebody makes it shorter, the system ends processes that read what was cut.
-/// @throws FileError when it cannot be opened, ParseError when it is none or of another version
+/// @throws FileError when it cannot be opened or is no ordinary file, ParseError when it is none of
+///         these or of another version
 inline Vocabulary openVocabulary(const std::string& path) {
   return detail::TreeOpener(detail::Storage::ofFile(detail::MappedFile(path)), path).open();
 }

@@ -39,8 +39,8 @@ inline namespace v1 {
 /// shared pool where that pays.
 ///
 /// All of a foreign file is checked. Memory is never more than a few times the size of the file.
-/// @throws FileError when it cannot be read; ParseError, which says where, when it is damaged, or
-///         none of these
+/// @throws FileError when it cannot be read or is no ordinary file, such as a pipe; ParseError,
+///         which says where, when it is damaged, or none of these
 inline Vocabulary loadVocabulary(const std::string& path) {
   detail::MappedFile file(path);
   const auto* const data = static_cast<const std::uint8_t*>(file.data());
