@@ -28,6 +28,9 @@
 /// - .gbow of the original GSLAM. Places of its table that are not in the tree are left out, and
 ///   nodes and words, which were places, numbered anew, breadth first.
 ///
+/// DBoW2's YAML does not say what its descriptors are: where all are integers of 0 to 255, they are
+/// bytes of bits.
+///
 /// Words, weights and the order of children, which decides ties, are those of the file; so are the
 /// ids of nodes where the format has some. gslam/vocabulary/gzip.h reads what is compressed by
 /// gzip.

@@ -22,10 +22,6 @@ namespace gslam {
 inline namespace v1 {
 namespace detail {
 
-constexpr std::uint32_t kMostChildren = 64;
-constexpr std::uint32_t kMostDepth = 64;
-constexpr std::uint32_t kMostDescriptorSize = 4096;
-
 // One use: checks a list of nodes and puts them in order. Nodes of the list are called by their
 // index there, nodes of the tree by their number.
 class TreeBuilder {
