@@ -251,7 +251,7 @@ std::string turnedRound(std::string bytes, const std::vector<std::size_t>& list_
                    bytes.begin() + std::ptrdiff_t(begin + (i + 1) * size));
     }
   };
-  for (const std::size_t at : {8, 12, 24, 28, 32, 36, 40, 44, 48, 52}) turn(at, 1, 4);
+  for (const std::size_t at : {8U, 12U, 24U, 28U, 32U, 36U, 40U, 44U, 48U, 52U}) turn(at, 1, 4);
   turn(64, 1, 8);
   std::size_t end = 256;
   for (std::size_t i = 0; i < list_sizes.size(); ++i) {

@@ -315,8 +315,8 @@ TEST_P(FloatKernel, KnowsTheNumbersOfStepsToTheLastBit) {
   std::mt19937 random(9);
   for (int trial = 0; trial < 20000; ++trial) {
     DescriptorFormat format = formatOf(DescriptorType::int8, 8);
-    format.scale = std::ldexp(0.002F + float(random()) * 0x1p-40F, -(trial % 12));
-    format.offset = 0.9F + float(random()) * 0x1p-33F;
+    format.scale = std::ldexp(0.002F + std::ldexp(float(random()), -40), -(trial % 12));
+    format.offset = 0.9F + std::ldexp(float(random()), -33);
     const auto stepped = [&] { return static_cast<std::uint8_t>(90 + random() % 3); };
     std::vector<std::uint8_t> steps(8);
     for (std::uint8_t& step : steps) step = stepped();
