@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -56,6 +57,19 @@ TEST_F(ANewFile, GoesWhereALinkLeads) {
   ASSERT_EQ(symlink("file", path("link").c_str()), 0);
   gslam::detail::writeTextFile(path("link"), "new");
   EXPECT_EQ(contentOf(path("file")), "new");
+}
+
+// What processes leave that were ended while they wrote.
+TEST_F(ANewFile, IsNotHinderedByWhatOthersLeft) {
+  std::vector<std::string> left;
+  for (int i = 0; i < 200; ++i) left.push_back(path("file.") + std::to_string(i) + ".tmp");
+  for (const std::string& name : left) std::ofstream(name) << "half";
+  gslam::detail::writeTextFile(path("file"), "new");
+  EXPECT_EQ(contentOf(path("file")), "new");
+  for (const std::string& name : left) {
+    EXPECT_EQ(contentOf(name), "half");
+    std::remove(name.c_str());
+  }
 }
 
 TEST_F(ANewFile, SaysWhyItCannotBe) {

@@ -1,16 +1,18 @@
-// Any bytes are a vocabulary in which every way down ends at a word, and which goes to ORB-SLAM's
-// text and back, or are refused with a gslam::Error.
+// Any bytes are a vocabulary that gives words, and in which, once it is verified, every way down
+// ends at one, and which goes to ORB-SLAM's text and back, or are refused with a gslam::Error.
 #include <gslam/base/error.h>
 #include <gslam/vocabulary/detail/build_tree.h>
 #include <gslam/vocabulary/detail/write_orb_text.h>
 #include <gslam/vocabulary/file.h>
 #include <gslam/vocabulary/load.h>
+#include <gslam/vocabulary/transform.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -41,6 +43,22 @@ void goDown(const Vocabulary& vocabulary) {
   seen = sum;
 }
 
+void findWords(const Vocabulary& vocabulary) {
+  const gslam::DescriptorFormat& format = vocabulary.format();
+  const std::vector<float> numbers(format.size, 0.5F);
+  const std::vector<std::uint8_t> bits(format.size, 0x5A);
+  gslam::BowVector bow;
+  gslam::FeatureVector features;
+  transform(vocabulary,
+            format.type == gslam::DescriptorType::binary
+                ? gslam::binaryDescriptors(bits.data(), 1, format.size)
+                : gslam::floatDescriptors(numbers.data(), 1, format.size),
+            1, bow, features);
+  for (const std::uint32_t word : bow.words) {
+    if (word >= vocabulary.wordCount()) std::abort();
+  }
+}
+
 void roundTrip(const Vocabulary& vocabulary) {
   gslam::verifyVocabulary(vocabulary);
   if (vocabulary.format().type != gslam::DescriptorType::binary) return;
@@ -64,6 +82,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Vocabulary vocabulary =
         gslam::loadVocabulary(gslam::Span<const std::uint8_t>(data, size), "fuzz");
     goDown(vocabulary);
+    findWords(vocabulary);
     roundTrip(vocabulary);
   } catch (const gslam::Error&) {  // NOLINT(bugprone-empty-catch): what most inputs get
   }

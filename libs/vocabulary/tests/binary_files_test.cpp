@@ -102,6 +102,8 @@ TEST(dbow3_binary, errors_name_the_byte) {
             "toy: byte 89: the node has the id 1, which another has, too");
   EXPECT_EQ(errorOf(replaced(bytes, 29 + record + 16, 31U)),
             "toy: byte 105: the descriptor has another shape or type than the first");
+  EXPECT_EQ(errorOf(replaced(bytes, 13, 65U)), "toy: byte 13: K is 65, expected 2 to 64");
+  EXPECT_EQ(errorOf(replaced(bytes, 17, 0U)), "toy: byte 17: L is 0, expected 1 to 64");
   EXPECT_EQ(errorOf(replaced(bytes, 21, 6U)), "toy: byte 21: the scoring is 6, expected 0 to 5");
   EXPECT_EQ(errorOf(replaced(bytes, 9, 0U)), "toy: byte 9: the vocabulary is empty");
   EXPECT_EQ(errorOf(replaced(bytes, 9, 0xFFFFFFFFU)),

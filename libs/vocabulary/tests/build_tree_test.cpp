@@ -195,7 +195,19 @@ INSTANTIATE_TEST_SUITE_P(
               [](TreeData& data) { data.descriptors.pop_back(); }},
         Fault{"branching", "up to 65 children", [](TreeData& data) { data.branching = 65; }},
         Fault{"depth", "depth is 0", [](TreeData& data) { data.depth = 0; }},
-        Fault{"size", "size 5000", [](TreeData& data) { data.format.size = 5000; }}),
+        Fault{"size", "size 5000", [](TreeData& data) { data.format.size = 5000; }},
+        Fault{"not_finite", "descriptor of node 4 is not finite",
+              [](TreeData& data) {
+                data.format.type = gslam::DescriptorType::float16;
+                data.format.size = 1;
+                data.descriptors[6] = 0;
+                data.descriptors[7] = 0xFC;
+              }},
+        Fault{"no_scale", "the scale is 0",
+              [](TreeData& data) {
+                data.format.type = gslam::DescriptorType::int8;
+                data.format.scale = 0;
+              }}),
     nameOf);
 
 // Weights of inner nodes mean nothing, whatever they are.

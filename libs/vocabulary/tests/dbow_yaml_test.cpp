@@ -171,6 +171,16 @@ TEST(dbow_yaml, floats_are_exact) {
   EXPECT_EQ(numbers, (std::vector<float>{16777216.0F, 1e-40F, -0.0F}));
 }
 
+TEST(dbow_yaml, floats_may_begin_with_integers) {
+  const Vocabulary vocabulary = load(replacedAll(kSmall, "7 8 9 ", "7 0.5 -9 "));
+  EXPECT_EQ(vocabulary.format().type, gslam::DescriptorType::float32);
+  std::vector<float> numbers(3);
+  std::memcpy(numbers.data(), gslam::detail::descriptorOf(vocabulary.tree(), 1), 12);
+  EXPECT_EQ(numbers, (std::vector<float>{1, 2, 3}));
+  std::memcpy(numbers.data(), gslam::detail::descriptorOf(vocabulary.tree(), 3), 12);
+  EXPECT_EQ(numbers, (std::vector<float>{7, 0.5F, -9}));
+}
+
 // Weights of inner nodes are what was in the memory.
 TEST(dbow_yaml, weights_need_be_numbers_in_leaves_alone) {
   for (const char* const weight : {".Nan", ".Inf", "-.Inf", "-3."}) {
@@ -180,6 +190,10 @@ TEST(dbow_yaml, weights_need_be_numbers_in_leaves_alone) {
 }
 
 TEST(dbow_yaml, errors_name_the_line_and_the_column) {
+  EXPECT_EQ(errorOf(replaced("k: 2", "k: 65")),
+            "toy.yml:4:7: expected a number of 2 to 64, got '65'");
+  EXPECT_EQ(errorOf(replaced("L: 2", "L: 0")),
+            "toy.yml:5:7: expected a number of 1 to 64, got '0'");
   EXPECT_EQ(errorOf(replaced("8 9", "8 256")),
             "toy.yml:14:27: expected a byte of 0 to 255, of 3 as in the first descriptor, got "
             "'256'");
@@ -235,7 +249,7 @@ TEST(dbow_yaml, other_wrong_files_are_refused) {
         replaced("\"4 5 6 \"", "\"4 5 6 "),
         replaced("4 5 6 ", "4 5 "),
         replaced("4 5 6 ", ""),
-        replaced("4 5 6 ", "4.5 5 6 "),
+        replaced("4 5 6 ", "4.5. 5 6 "),
         replaced("4 5 6 ", "dbw3 0 3 4 5 6 "),
         replaced("1 2 3 ", "dbw3 0 3 1 2 3 "),
         replaced("1 2 3 ", "dbw3"),

@@ -1,5 +1,7 @@
 // GSLAM's own files: there and back, and damaged in every way.
 #include <gslam/vocabulary/file.h>
+#include <gslam/vocabulary/load.h>
+#include <gslam/vocabulary/orb_slam_text.h>
 #include <gslam/vocabulary/transform.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -13,6 +15,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -133,6 +136,13 @@ TEST_F(VocabularyFile, OfNothingIsRefused) {
   EXPECT_NE(complaintAbout("").find("no vocabulary of GSLAM"), std::string::npos);
 }
 
+// Without anybody who writes into it, which would take for ever.
+TEST_F(VocabularyFile, OfAPipeIsRefused) {
+  ASSERT_EQ(mkfifo(path().c_str(), 0600), 0);
+  EXPECT_THROW(gslam::openVocabulary(path()), gslam::FileError);
+  EXPECT_THROW(gslam::loadVocabulary(path()), gslam::FileError);
+}
+
 TEST_F(VocabularyFile, CutOffAnywhereIsRefused) {
   saveVocabulary(treeOf(formatOf(DescriptorType::binary, 4), 2, 2), path());
   const std::string bytes = bytesOfFile(path());
@@ -155,6 +165,24 @@ TEST_F(VocabularyFile, WithABitFlippedAnywhereIsRefused) {
     damaged[bit / 8] = static_cast<char>(damaged[bit / 8] ^ (1 << (bit % 8)));
     ASSERT_NE(complaintAbout(damaged), "") << "bit " << bit;
   }
+}
+
+// A copy of a file has its checksum, too; and what is damaged gets none that fits.
+TEST_F(VocabularyFile, DamagedIsSeenInMemoryAndNotWrittenAnew) {
+  saveVocabulary(treeOf(formatOf(DescriptorType::binary, 4), 2, 2), path());
+  std::string bytes = bytesOfFile(path());
+  const auto inMemory = [&bytes] {
+    const auto* const data = reinterpret_cast<const std::uint8_t*>(bytes.data());
+    return gslam::loadVocabulary(gslam::Span<const std::uint8_t>(data, bytes.size()), "bytes");
+  };
+  EXPECT_NO_THROW(verifyVocabulary(inMemory()));
+  bytes[bytes.size() - 8] = static_cast<char>(bytes[bytes.size() - 8] ^ 1);
+  EXPECT_THROW(verifyVocabulary(inMemory()), gslam::ParseError);
+  write(bytes);
+  EXPECT_THROW(saveVocabulary(gslam::openVocabulary(path()), path()), gslam::ParseError);
+  EXPECT_THROW(saveVocabulary(inMemory().withScoring(gslam::Scoring::l2), path()),
+               gslam::ParseError);
+  EXPECT_EQ(bytesOfFile(path()), bytes);
 }
 
 // Who makes the checksum fit must say something possible, too.
@@ -180,6 +208,38 @@ TEST_F(VocabularyFile, WithAnImpossibleHeaderIsRefused) {
   expect(withField<std::uint32_t>(bytes, 48, 40), "number of words 40");
   expect(withField<std::uint32_t>(bytes, 52, 0), "number of weights 0");
   expect(withField<std::uint64_t>(bytes, 64, ~std::uint64_t(0)), "header asks for");
+  saveVocabulary(treeOf(formatOf(DescriptorType::int8, 32), 3, 3), path());
+  const std::string steps = bytesOfFile(path());
+  ASSERT_EQ(complaintAbout(withField<float>(steps, 28, -0.5F)), "");
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (const float scale : {nan, infinity, 0.0F, 3e38F}) {
+    expect(withField<float>(steps, 28, scale), "the scale");
+  }
+  for (const float offset : {nan, -infinity}) {
+    expect(withField<float>(steps, 32, offset), "the offset");
+  }
+}
+
+// Kernels read zeros behind a descriptor, and numbers in it.
+TEST_F(VocabularyFile, WithDescriptorsThatKernelsCannotCompareIsRefused) {
+  const auto expect = [this](DescriptorType type, std::size_t at, const std::string& written,
+                             const std::string& said) {
+    const Vocabulary vocabulary = treeOf(formatOf(type, 30), 3, 3);
+    saveVocabulary(vocabulary, path());
+    std::string bytes = bytesOfFile(path());
+    const gslam::detail::TreeView& tree = vocabulary.tree();
+    bytes.replace(bytes.size() - (tree.node_count - 7UL) * tree.stride + at, written.size(),
+                  written);
+    const auto* const body = reinterpret_cast<const std::uint8_t*>(bytes.data()) + 256;
+    bytes = withField(bytes, 240, gslam::detail::Xxh64::of(body, bytes.size() - 256));
+    EXPECT_EQ(complaintAbout(bytes, false), "");
+    EXPECT_EQ(complaintAbout(bytes), path() + ": node 7 has " + said);
+  };
+  expect(DescriptorType::binary, 30, "\x01", "bytes other than 0 behind its descriptor");
+  expect(DescriptorType::int8, 31, "\x80", "bytes other than 0 behind its descriptor");
+  expect(DescriptorType::float32, 29 * 4 + 2, "\x80\xFF", "a descriptor that is not finite");
+  expect(DescriptorType::float16, 29 * 2, {0, 0x7C}, "a descriptor that is not finite");
 }
 
 // As a machine with another order of bytes writes it, by docs/formats/vocabulary.md.
@@ -191,7 +251,7 @@ std::string turnedRound(std::string bytes, const std::vector<std::size_t>& list_
                    bytes.begin() + std::ptrdiff_t(begin + (i + 1) * size));
     }
   };
-  for (const std::size_t at : {8, 12, 24, 28, 32, 36, 40, 44, 48, 52}) turn(at, 1, 4);
+  for (const std::size_t at : {8U, 12U, 24U, 28U, 32U, 36U, 40U, 44U, 48U, 52U}) turn(at, 1, 4);
   turn(64, 1, 8);
   std::size_t end = 256;
   for (std::size_t i = 0; i < list_sizes.size(); ++i) {
@@ -242,12 +302,13 @@ TEST_F(VocabularyFile, OfAnotherOrderOfBytesIsTheSame) {
   }
 }
 
-// What was not verified may be wrong, but must not be read beyond.
+// What was not verified may be wrong, but must not be read beyond, nor have kernels write beyond
+// their room for the children of a node.
 TEST_F(VocabularyFile, DamagedAndNotVerifiedStaysInItsMemory) {
-  const gslam::Descriptors none;
-  for (const bool has_ids : {false, true}) {
-    gslam::detail::TreeData data =
-        random_tree::dataOf(formatOf(DescriptorType::binary, 32), 6, 4, true);
+  for (const int kind : {0, 1, 2, 3, 4}) {
+    const auto type = static_cast<DescriptorType>(kind % 4);
+    const bool has_ids = kind == 4;
+    gslam::detail::TreeData data = random_tree::dataOf(formatOf(type, 32), 18, 3, true);
     if (has_ids) {
       for (std::size_t i = 0; i < data.parents.size(); ++i) {
         data.ids.push_back(static_cast<std::uint32_t>(data.parents.size() - i));
@@ -257,24 +318,59 @@ TEST_F(VocabularyFile, DamagedAndNotVerifiedStaysInItsMemory) {
       }
     }
     const Vocabulary whole = gslam::detail::buildVocabulary(data, "made");
-    const std::vector<std::uint8_t> queries = random_tree::queriesLike(whole, 200);
+    const std::vector<std::uint8_t> bits = random_tree::queriesLike(whole, 200);
+    const std::vector<float> numbers = random_tree::floats(200 * 32);
+    const gslam::Descriptors queries = type == DescriptorType::binary
+                                           ? gslam::binaryDescriptors(bits.data(), 200, 32)
+                                           : gslam::floatDescriptors(numbers.data(), 200, 32);
     saveVocabulary(whole, path());
     const std::string bytes = bytesOfFile(path());
     std::mt19937 random(4);
-    for (int trial = 0; trial < 50; ++trial) {
+    for (int trial = 0; trial < 30; ++trial) {
       std::string damaged = bytes;
       for (int i = 0; i < 2000; ++i) {
         damaged[256 + random() % (damaged.size() - 256)] = static_cast<char>(random());
+      }
+      if (trial % 2 == 0) {  // the root has 255 children, and they are there
+        damaged = bytes;
+        damaged[256 + (whole.nodeCount() * 4UL + 63) / 64 * 64] = '\xFF';
       }
       write(damaged);
       const Vocabulary opened = gslam::openVocabulary(path());
       gslam::BowVector bow;
       gslam::FeatureVector features;
-      transform(opened, gslam::binaryDescriptors(queries.data(), 200, 32), 2, bow, features);
+      transform(opened, queries, 2, bow, features);
       for (const std::uint32_t word : bow.words) ASSERT_LT(word, opened.wordCount());
       ASSERT_THROW(verifyVocabulary(opened), gslam::ParseError);
+      if (type == DescriptorType::binary) {
+        ASSERT_THROW(saveOrbSlamText(opened, path() + ".txt"), gslam::ParseError);
+      }
     }
   }
+}
+
+// Each node is the child of the one before: a way down is as long as there are nodes.
+TEST_F(VocabularyFile, DamagedAndNotVerifiedIsNoDeeperThanItSays) {
+  const Vocabulary whole = treeOf(formatOf(DescriptorType::binary, 32), 10, 3);
+  saveVocabulary(whole, path());
+  std::string bytes = bytesOfFile(path());
+  const std::size_t counts = 256 + (whole.nodeCount() * 4UL + 63) / 64 * 64;
+  for (std::uint32_t node = 0; node + 1 < whole.nodeCount(); ++node) {
+    const std::uint32_t next = node + 1;
+    std::memcpy(&bytes[256 + node * 4UL], &next, 4);
+    bytes[counts + node] = 1;
+  }
+  write(bytes);
+  const Vocabulary chain = gslam::openVocabulary(path());
+  const std::vector<std::uint8_t> queries = random_tree::queriesLike(whole, 10);
+  const gslam::Descriptors descriptors = gslam::binaryDescriptors(queries.data(), 10, 32);
+  std::vector<std::uint32_t> words(10);
+  findWords(chain, descriptors, words);
+  EXPECT_EQ(words, std::vector<std::uint32_t>(10, gslam::detail::kNone));
+  gslam::BowVector bow;
+  gslam::FeatureVector features;
+  transform(chain, descriptors, 1, bow, features);
+  EXPECT_TRUE(bow.empty());
 }
 
 // Every number that a checksum does not protect.
@@ -317,6 +413,17 @@ TEST(tree_checker, SeesEveryFault) {
   EXPECT_NE(check(3, 0, 1), "sound");
   EXPECT_NE(check(3, 7, 40), "sound");
   EXPECT_NE(check(4, 0, 2), "sound");
+}
+
+// Every node is some node's child, but the root is a leaf.
+TEST(tree_checker, SeesThatTheRootIsNoParent) {
+  const Vocabulary vocabulary = treeOf(formatOf(DescriptorType::binary, 4), 2, 1);
+  gslam::detail::TreeView tree = vocabulary.tree();
+  const std::uint32_t links[] = {0, 1, 1};
+  const std::uint8_t counts[] = {0, 2, 0};
+  tree.links = links;
+  tree.child_counts = counts;
+  EXPECT_THROW(gslam::detail::TreeChecker(tree, "tree").check(), gslam::ParseError);
 }
 
 }  // namespace

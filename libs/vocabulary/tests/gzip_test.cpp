@@ -192,6 +192,9 @@ TEST(gzip, damaged_files_are_refused) {
     EXPECT_THROW(gslam::loadGzippedVocabulary(fileOf(damaged)), gslam::ParseError) << at;
   }
   EXPECT_THROW(gslam::loadGzippedVocabulary(fileOf(bytes + "more")), gslam::ParseError);
+  const std::string padding(1000, '\0');
+  EXPECT_NO_THROW(gslam::loadGzippedVocabulary(fileOf(bytes + padding)));
+  EXPECT_THROW(gslam::loadGzippedVocabulary(fileOf(bytes + padding + "x")), gslam::ParseError);
   std::remove(fileOf("").c_str());
 }
 

@@ -1,5 +1,10 @@
 // The nearest of a few rows, by every variant of SIMD, against plain loops.
+
+// Compiled with -O3 (CMakeLists.txt), with which compilers fuse products and sums across functions;
+// so what is included is renamed, or the linker would take the kernels of other tests.
+#define v1 optimised
 #include <gslam/base/simd.h>
+#include <gslam/vocabulary/detail/exact_sum.h>
 #include <gslam/vocabulary/detail/nearest.h>
 #include <gtest/gtest.h>
 
@@ -53,7 +58,8 @@ long double valueOf(const DescriptorFormat& format, const std::uint8_t* row, std
     return value;
   }
   if (format.type == DescriptorType::int8) {
-    return format.offset + format.scale * float(static_cast<std::int8_t>(row[i]));
+    const long double step = static_cast<std::int8_t>(row[i]);
+    return float(format.offset + format.scale * step);
   }
   std::uint16_t half = 0;
   std::memcpy(&half, row + i * 2, 2);
@@ -277,6 +283,64 @@ TEST_P(FloatKernel, TakesTheFirstOfEquals) {
   }
 }
 
+// The same numbers in another order are as far from a query of equal numbers, whatever their sizes.
+TEST_P(FloatKernel, TakesTheFirstOfThoseThatAreEqualWhenNothingIsRounded) {
+  const DescriptorFormat format = formatOf(DescriptorType::float32, 128);
+  std::mt19937 random(8);
+  const std::vector<float> query(128, 0.25F);
+  std::vector<float> rows(512);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const int range = 1 + trial % 40;
+    for (std::size_t i = 0; i < 128; ++i) {
+      rows[i] = std::ldexp(float(random()), -32 - static_cast<int>(random() % unsigned(range)));
+    }
+    for (std::size_t c = 1; c < 4; ++c) {
+      std::copy(rows.begin(), rows.begin() + 128, rows.begin() + std::ptrdiff_t(c * 128));
+      std::shuffle(rows.begin() + std::ptrdiff_t(c * 128),
+                   rows.begin() + std::ptrdiff_t(c * 128 + 128), random);
+    }
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(rows.data());
+    ASSERT_EQ(choose(format, query, bytes, 4).index, 0U) << trial;
+    // One bit nearer.
+    float& last = *std::min_element(rows.begin() + 384, rows.end());
+    last = std::nextafter(last, 0.25F);
+    ASSERT_EQ(choose(format, query, bytes, 4).index, 3U) << trial;
+  }
+}
+
+// Numbers of these formats are multiples of 2^-24 when they are decoded, so that the sums of
+// squares are integers; and there are many ties and near-ties, as the queries are such numbers,
+// too.
+TEST_P(FloatKernel, KnowsTheNumbersOfStepsToTheLastBit) {
+  std::mt19937 random(9);
+  for (int trial = 0; trial < 20000; ++trial) {
+    DescriptorFormat format = formatOf(DescriptorType::int8, 8);
+    format.scale = std::ldexp(0.002F + std::ldexp(float(random()), -40), -(trial % 12));
+    format.offset = 0.9F + std::ldexp(float(random()), -33);
+    const auto stepped = [&] { return static_cast<std::uint8_t>(90 + random() % 3); };
+    std::vector<std::uint8_t> steps(8);
+    for (std::uint8_t& step : steps) step = stepped();
+    std::vector<float> query(8);
+    for (std::size_t i = 0; i < 8; ++i) query[i] = float(valueOf(format, steps.data(), i));
+    Bytes rows(80, 4);
+    std::uint32_t expected = 0;
+    std::int64_t least = std::numeric_limits<std::int64_t>::max();
+    for (std::uint32_t c = 0; c < 10; ++c) {
+      std::uint8_t* const row = rows.data() + c * 8UL;
+      std::int64_t sum = 0;
+      for (std::size_t i = 0; i < 8; ++i) {
+        row[i] = stepped();
+        const auto difference =
+            static_cast<std::int64_t>(std::ldexp(query[i] - valueOf(format, row, i), 24));
+        sum += difference * difference;
+      }
+      if (sum < least) expected = c;
+      least = std::min(least, sum);
+    }
+    ASSERT_EQ(choose(format, query, rows.data(), 10).index, expected) << trial;
+  }
+}
+
 TEST_P(FloatKernel, BearsWhatIsNoNumber) {
   const DescriptorFormat format = formatOf(DescriptorType::float32, 20);
   std::vector<float> rows(200, 0);
@@ -287,16 +351,51 @@ TEST_P(FloatKernel, BearsWhatIsNoNumber) {
   EXPECT_EQ(choose(format, query, bytes, 10).index, 0U);
   query[3] = std::numeric_limits<float>::infinity();
   EXPECT_EQ(choose(format, query, bytes, 10).index, 0U);
-  // Too large for the square of a float, but not for that of a double.
+  // Too large for the square of a float; and the 1 of row 7 is nearer, which no double tells.
   query[3] = 0;
   query[0] = 1e25F;
-  EXPECT_EQ(choose(format, query, bytes, 10).index, 0U);
+  EXPECT_EQ(choose(format, query, bytes, 10).index, 7U);
   rows[7 * 20] = 1e25F;
   EXPECT_EQ(choose(format, query, bytes, 10).index, 7U);
   // Too small for it.
   rows[7 * 20] = 1e-30F;
   query[0] = 1e-30F;
   EXPECT_EQ(choose(format, query, bytes, 10).index, 7U);
+  // Their squares are a few of the smallest floats.
+  query[0] = 0;
+  std::fill(rows.begin(), rows.end(), 1.0F);
+  for (const std::size_t c : {3U, 7U}) std::fill_n(rows.begin() + std::ptrdiff_t(c * 20), 20, 0.0F);
+  rows[3 * 20] = 4.3e-23F;
+  rows[7 * 20] = rows[7 * 20 + 1] = 2.9e-23F;
+  EXPECT_EQ(choose(format, query, bytes, 10).index, 7U);
+}
+
+// Sums of products of integers of any size, beside the largest and the smallest numbers there are.
+TEST(exact_sum, HasTheSignOfIntegers) {
+  const float smallest = std::numeric_limits<float>::denorm_min();
+  const float largest = std::numeric_limits<float>::max();
+  std::mt19937 random(10);
+  for (int trial = 0; trial < 5000; ++trial) {
+    gslam::detail::ExactSum sum;
+    std::int64_t expected = 0;
+    for (int i = 0; i < 6; ++i) {
+      const std::int64_t a = std::int64_t(random() % 16777216U) >> (random() % 24);
+      const std::int64_t b = std::int64_t(random() % 33554431U) - 16777215;
+      const int factor = (random() % 2 == 0 ? 1 : 2) * (random() % 2 == 0 ? 1 : -1);
+      // Of many sizes together, but the same for all.
+      const int exponent = trial % 250 - 149;
+      sum.addProduct(std::ldexp(float(a), exponent), std::ldexp(float(b), -exponent % 100), factor);
+      expected += a * b * factor;
+    }
+    EXPECT_EQ(sum.isNegative(), expected < 0) << trial;
+    // What is far larger decides, until it is taken away again.
+    sum.addProduct(largest, largest, -2);
+    EXPECT_TRUE(sum.isNegative());
+    sum.addProduct(largest, largest, 2);
+    EXPECT_EQ(sum.isNegative(), expected < 0);
+    sum.addProduct(-smallest, smallest);
+    EXPECT_EQ(sum.isNegative(), expected <= 0);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(simd, FloatKernel,

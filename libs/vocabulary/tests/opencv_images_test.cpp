@@ -176,6 +176,8 @@ TEST_F(TenImages, HaveViewsOfRows) {
   EXPECT_EQ(view.stride, 40U);
   EXPECT_TRUE(view.is_binary);
   EXPECT_EQ(gslam::viewDescriptors(cv::Mat()).count, 0U);
+  const int sizes[] = {2, 3, 32};
+  EXPECT_THROW(gslam::viewDescriptors(cv::Mat(3, sizes, CV_8UC1)), gslam::ArgumentError);
   const gslam::Descriptors floats = gslam::viewDescriptors(cv::Mat(3, 128, CV_32FC1));
   EXPECT_FALSE(floats.is_binary);
   EXPECT_EQ(floats.size, 128U);

@@ -179,6 +179,10 @@ TEST(orb_text, errors_name_the_line_and_the_column) {
             "toy.txt:4: node 3 is not marked as a leaf, but has no children");
   EXPECT_EQ(errorOf(replaced("0 0 1", "0 1 1")),
             "toy.txt:2: node 1 is marked as a leaf, but has children");
+  EXPECT_EQ(errorOf(replaced("2 2 0 0", "65 2 0 0")),
+            "toy.txt:1:1: expected the branching K of 2 to 64, got '65'");
+  EXPECT_EQ(errorOf(replaced("2 2 0 0", "2 0 0 0")),
+            "toy.txt:1:3: expected the depth L of 1 to 64, got '0'");
   EXPECT_EQ(errorOf(replaced("2 2 0 0", "2 2 6 0")),
             "toy.txt:1:5: expected the number of a scoring of 0 to 5, got '6'");
   EXPECT_EQ(errorOf(replaced("2 2 0 0", "2 2 0 4")),

@@ -356,6 +356,12 @@ TEST(transform, SaysWhatDoesNotFit) {
   EXPECT_THROW(transform(numbers, gslam::binaryDescriptors(bytes.data(), 2, 32), bow),
                gslam::ArgumentError);
   EXPECT_NO_THROW(transform(numbers, gslam::floatDescriptors(floats.data(), 2, 32), bow));
+  gslam::Descriptors by_hand = gslam::binaryDescriptors(bytes.data(), 2, 32);
+  by_hand.stride = 0;
+  EXPECT_THROW(transform(bits, by_hand, bow), gslam::ArgumentError);
+  by_hand.stride = 32;
+  by_hand.data = nullptr;
+  EXPECT_THROW(transform(bits, by_hand, bow), gslam::ArgumentError);
   EXPECT_THROW(gslam::binaryDescriptors(bytes.data(), 2, 32, 31), gslam::ArgumentError);
   EXPECT_THROW(gslam::binaryDescriptors(bytes.data(), 2, 0), gslam::ArgumentError);
   EXPECT_THROW(gslam::floatDescriptors(floats.data(), 2, 16, 65), gslam::ArgumentError);

@@ -35,8 +35,8 @@
 
 /// @def GSLAM_ALWAYS_INLINE
 /// Before a function that is small once its arguments are known, which compilers cannot see.
-/// Without optimisation, and under the address sanitizer, they are not known, and it is a function
-/// like others.
+/// Without optimisation, and under the address sanitizer of g++, they are not known, and it is a
+/// function like others.
 /// @def GSLAM_COLD
 /// Before a function for rare cases, which stays out of line, so that the usual case is small.
 #if defined(__GNUC__) || defined(__clang__)

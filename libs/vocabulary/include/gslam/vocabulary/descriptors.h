@@ -33,7 +33,8 @@ struct DescriptorFormat {
   DescriptorType type = DescriptorType::binary;  ///< how each is kept
   std::uint32_t size = 32;  ///< bytes of a binary one, numbers of the others; 1 to 4096
   /// @{
-  /// Of `int8`: the number that byte b stands for is `offset + scale * b`, with b from -128 to 127.
+  /// Of `int8`: the number that byte b stands for is the float nearest to `offset + scale * b`,
+  /// with b from -128 to 127. Finite, the scale not 0.
   float scale = 1;
   float offset = 0;
   /// @}

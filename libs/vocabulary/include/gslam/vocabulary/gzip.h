@@ -38,12 +38,17 @@ class GzipReader {
   std::vector<std::uint8_t> read() {
     do {
       readMember();
-    } while (offset_ != size_);
+    } while (!isPadding());
     bytes_.resize(used_);
     return std::move(bytes_);
   }
 
  private:
+  // As gzip does: zeros fill the blocks of a tape.
+  bool isPadding() const noexcept {
+    return std::all_of(data_ + offset_, data_ + size_, [](std::uint8_t byte) { return byte == 0; });
+  }
+
   enum : std::size_t { kPiece = std::size_t(1) << 16 };
 
   [[noreturn]] void fail(const std::string& problem) const {

@@ -28,6 +28,9 @@
 /// - .gbow of the original GSLAM. Places of its table that are not in the tree are left out, and
 ///   nodes and words, which were places, numbered anew, breadth first.
 ///
+/// DBoW2's YAML does not say what its descriptors are: where all are integers of 0 to 255, they are
+/// bytes of bits.
+///
 /// Words, weights and the order of children, which decides ties, are those of the file; so are the
 /// ids of nodes where the format has some. gslam/vocabulary/gzip.h reads what is compressed by
 /// gzip.
@@ -39,8 +42,8 @@ inline namespace v1 {
 /// shared pool where that pays.
 ///
 /// All of a foreign file is checked. Memory is never more than a few times the size of the file.
-/// @throws FileError when it cannot be read; ParseError, which says where, when it is damaged, or
-///         none of these
+/// @throws FileError when it cannot be read or is no ordinary file, such as a pipe; ParseError,
+///         which says where, when it is damaged, or none of these
 inline Vocabulary loadVocabulary(const std::string& path) {
   detail::MappedFile file(path);
   const auto* const data = static_cast<const std::uint8_t*>(file.data());

@@ -17,9 +17,13 @@ inline namespace v1 {
 
 /// Views the descriptors of OpenCV's features, which are not copied: the Mat must outlive the view.
 /// @param descriptors  a row each, CV_8U (bits) or CV_32F; may be empty
-/// @throws ArgumentError for another type
+/// @throws ArgumentError for another type, or more dimensions
 inline Descriptors viewDescriptors(const cv::Mat& descriptors) {
   if (descriptors.empty()) return Descriptors();
+  if (descriptors.dims != 2) {
+    throw ArgumentError("descriptors", "have " + std::to_string(descriptors.dims) +
+                                           " dimensions, expected rows and columns");
+  }
   const auto count = static_cast<std::size_t>(descriptors.rows);
   const auto size = static_cast<std::uint32_t>(descriptors.cols);
   const std::size_t stride = descriptors.step[0];

@@ -5,6 +5,7 @@
 #include <gslam/base/error.h>
 #include <gslam/vocabulary/detail/build_tree.h>
 #include <gslam/vocabulary/detail/write_orb_text.h>
+#include <gslam/vocabulary/file.h>
 #include <gslam/vocabulary/vocabulary.h>
 
 #include <cstddef>
@@ -25,7 +26,7 @@ inline namespace v1 {
 /// place of one that was there.
 /// @throws FileError when it cannot be written; ArgumentError when the format cannot hold the
 ///         vocabulary: it is empty, has no binary descriptors, K over 20 or L over 10, or children
-///         whose words are not in their order
+///         whose words are not in their order; ParseError when it is damaged
 inline void saveOrbSlamText(const Vocabulary& vocabulary, const std::string& path) {
   const auto refuse = [](const std::string& reason) {
     throw ArgumentError("vocabulary", "cannot be written as ORB-SLAM's text: " + reason);
@@ -39,6 +40,7 @@ inline void saveOrbSlamText(const Vocabulary& vocabulary, const std::string& pat
     refuse("K is " + std::to_string(vocabulary.branching()) + " and L is " +
            std::to_string(vocabulary.depth()) + ", but ORB-SLAM reads up to 20 and 10");
   }
+  verifyVocabulary(vocabulary);
   const detail::TreeData data = detail::treeDataOf(vocabulary);
   detail::OrbTextWriter writer(data);
   detail::NewFile file(path);

@@ -42,7 +42,14 @@ inline void checkDescriptors(const Vocabulary& vocabulary, const Descriptors& de
   if (descriptors.count >= kNone) throw ArgumentError("descriptors", "are more than 32 bits count");
   const DescriptorFormat& format = vocabulary.format();
   const bool wants_binary = format.type == DescriptorType::binary;
-  if (descriptors.is_binary == wants_binary && descriptors.size == format.size) return;
+  if (descriptors.is_binary == wants_binary && descriptors.size == format.size) {
+    const std::size_t row = wants_binary ? format.size : format.size * sizeof(float);
+    if (descriptors.data == nullptr || descriptors.stride < row) {
+      throw ArgumentError("descriptors", "have no data, or less than " + std::to_string(row) +
+                                             " bytes from one to the next");
+    }
+    return;
+  }
   const auto shape = [](bool is_binary, std::uint32_t size) {
     return std::to_string(size) + (is_binary ? " bytes of bits" : " floats");
   };

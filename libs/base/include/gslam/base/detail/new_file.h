@@ -14,10 +14,13 @@ namespace gslam {
 inline namespace v1 {
 namespace detail {
 
-// A file that is written under another name, and gets its own when all is in it: others see the
-// old content or the new. Without commit() nothing is left of it. Links stay: what they lead to is
-// replaced, and keeps its mode. A pipe or device is no file that could be replaced: the bytes go
-// straight into it.
+// A file that is written under another name, and gets its own when all is in it: other programs see
+// the old content or the new. Without commit() nothing is left of it, unless the process is ended.
+// Links stay: what they lead to is replaced, and keeps its mode. A pipe or device is no file that
+// could be replaced: the bytes go straight into it.
+//
+// When it has to be on the disk is left to the system: to wait for that (fsync) would cost those
+// who write thousands of files minutes. So after the power failed there may be less in it.
 class NewFile {
  public:
   explicit NewFile(const std::string& path) : path_(path) {
@@ -58,15 +61,16 @@ class NewFile {
   }
 
  private:
+  // Who is ended while it writes leaves a name that others cannot have.
   void openTemporary() {
     std::string name;
-    for (int i = 0; i < 100 && file_ == nullptr; ++i) {
+    for (int i = 0; i < 10000 && file_ == nullptr; ++i) {
       name = target_ + "." + std::to_string(i) + ".tmp";
       errno = 0;
       file_ = std::fopen(name.c_str(), "wbx");
       if (file_ == nullptr && errno != EEXIST) throw FileError(path_, "cannot be written", errno);
     }
-    if (file_ == nullptr) throw FileError(path_, "cannot be written: " + name + " is there, too");
+    if (file_ == nullptr) throw FileError(path_, "cannot be written: " + name + " is there");
     temporary_.swap(name);
   }
 

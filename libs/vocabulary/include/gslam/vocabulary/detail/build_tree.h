@@ -3,6 +3,7 @@
 #define GSLAM_VOCABULARY_DETAIL_BUILD_TREE_H
 
 #include <gslam/base/error.h>
+#include <gslam/vocabulary/detail/encode.h>
 #include <gslam/vocabulary/detail/storage.h>
 #include <gslam/vocabulary/detail/tree_data.h>
 #include <gslam/vocabulary/detail/tree_layout.h>
@@ -20,10 +21,6 @@
 namespace gslam {
 inline namespace v1 {
 namespace detail {
-
-constexpr std::uint32_t kMostChildren = 64;
-constexpr std::uint32_t kMostDepth = 64;
-constexpr std::uint32_t kMostDescriptorSize = 4096;
 
 // One use: checks a list of nodes and puts them in order. Nodes of the list are called by their
 // index there, nodes of the tree by their number.
@@ -65,6 +62,10 @@ class TreeBuilder {
       fail("descriptors have the size " + std::to_string(data_.format.size) +
            ", expected 1 to 4096");
     }
+    if (!hasSoundSteps(data_.format)) {
+      fail("the scale is " + std::to_string(data_.format.scale) + " and the offset " +
+           std::to_string(data_.format.offset) + ", expected finite numbers, and no scale of 0");
+    }
     checkLength("ids", data_.ids.size(), true);
     checkLength("weights", data_.weights.size(), false);
     checkLength("words", data_.words.size(), true);
@@ -72,6 +73,10 @@ class TreeBuilder {
       fail("the descriptors have " + std::to_string(data_.descriptors.size()) +
            " bytes, expected " + std::to_string(bytesOf(data_.format)) + " for each of " +
            std::to_string(count) + " nodes");
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      if (isFiniteRow(data_.format, &data_.descriptors[i * bytesOf(data_.format)])) continue;
+      fail("the descriptor of " + name(i) + " is not finite");
     }
   }
   void checkLength(const char* what, std::size_t size, bool may_be_empty) const {
@@ -263,13 +268,14 @@ class TreeBuilder {
 };
 
 // Checks everything: circles, nodes without a parent, ids or words twice or missing, too many
-// children, too deep, weights that are not finite or negative, lists of other lengths. Throws
-// ParseError(source, 0, 0, problem) that names the node.
+// children, too deep, descriptors that are not finite, weights that are not or negative, lists of
+// other lengths. Throws ParseError(source, 0, 0, problem) that names the node.
 inline Vocabulary buildVocabulary(const TreeData& data, const std::string& source) {
   return TreeBuilder(data, source).build();
 }
 
-// The other way: nodes breadth first, with their ids and words.
+// The other way: nodes breadth first, with their ids and words. Of a tree that was not verified
+// these may be any numbers.
 inline TreeData treeDataOf(const Vocabulary& vocabulary) {
   const TreeView& tree = vocabulary.tree();
   TreeData data;

@@ -34,7 +34,13 @@ inline std::uint32_t readDbow3Header(const ForeignBytes& bytes, TreeData& data) 
   const std::uint32_t nodes = bytes.u32(9);
   if (nodes == 0) bytes.fail(9, "the vocabulary is empty");
   data.branching = bytes.u32(13);
+  if (data.branching < 2 || data.branching > kMostChildren) {
+    bytes.fail(13, "K is " + std::to_string(data.branching) + ", expected 2 to 64");
+  }
   data.depth = bytes.u32(17);
+  if (data.depth < 1 || data.depth > kMostDepth) {
+    bytes.fail(17, "L is " + std::to_string(data.depth) + ", expected 1 to 64");
+  }
   if (bytes.u32(21) > 5) {
     bytes.fail(21, "the scoring is " + std::to_string(bytes.u32(21)) + ", expected 0 to 5");
   }

@@ -35,7 +35,8 @@ class Descent {
   Descent(const TreeView& tree, ChooseFunction choose) : tree_(tree), choose_(choose) {}
 
   // To the leaves; `nodes` gets these, and `passed` the node at level `level` on the way (or the
-  // leaf, where that is above), unless it is null. Level 0 is the root.
+  // leaf, where that is above), unless it is null. Level 0 is the root. In a damaged file, which
+  // may be deeper than it says, to inner nodes.
   void run(const std::uint8_t* queries, std::size_t query_stride, std::size_t count,
            std::uint32_t level, std::uint32_t* nodes, std::uint32_t* passed) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -44,21 +45,22 @@ class Descent {
       choices_[i] = Choice{0, 0};
     }
     count_ = count;
-    bool goes_on = goDown(nodes);
-    for (std::uint32_t now = 0; now < level && goes_on; ++now) {
-      choose_(tree_.format, tree_.stride, visits_, count_, choices_);
-      goes_on = goDown(nodes);
-    }
+    goDown(nodes);
+    goDownLevels(level, nodes);
     if (passed != nullptr) std::copy(nodes, nodes + count, passed);
-    while (goes_on) {
-      choose_(tree_.format, tree_.stride, visits_, count_, choices_);
-      goes_on = goDown(nodes);
-    }
+    goDownLevels(tree_.depth - level, nodes);
   }
 
  private:
-  // To the chosen nodes. Who is at a leaf is left out from now on; false when all are.
-  bool goDown(std::uint32_t* nodes) {
+  void goDownLevels(std::uint32_t levels, std::uint32_t* nodes) {
+    for (; levels != 0 && count_ != 0; --levels) {
+      choose_(tree_.format, tree_.stride, visits_, count_, choices_);
+      goDown(nodes);
+    }
+  }
+
+  // To the chosen nodes. Who is at a leaf is left out from now on.
+  void goDown(std::uint32_t* nodes) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < count_; ++i) {
       const std::uint32_t node = visits_[i].first + choices_[i].index;
@@ -74,7 +76,6 @@ class Descent {
       ++kept;
     }
     count_ = kept;
-    return kept != 0;
   }
 
   const TreeView& tree_;
@@ -90,7 +91,7 @@ inline bool canReadInPlace(const TreeView& tree, const Descriptors& descriptors)
   return !descriptors.is_binary || descriptors.size == tree.stride;
 }
 
-// The leaf of each descriptor, and the node at a level; see Descent::run().
+// The leaf of each descriptor, and the node at a level, which the tree has; see Descent::run().
 inline void descend(const TreeView& tree, const Descriptors& descriptors, std::uint32_t level,
                     std::uint32_t* nodes, std::uint32_t* passed, std::vector<std::uint8_t>& rows) {
   Descent descent(tree, chooseKernel(tree.format).active());

@@ -11,6 +11,7 @@
 #include <gslam/vocabulary/detail/node_list.h>
 #include <gslam/vocabulary/detail/text_cursor.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -76,6 +77,23 @@ class DescriptorTextReader {
   // The bytes of old DBoW3 could be those of DBoW2: "0 32" in front can be chance, but hardly
   // twice.
   bool looksTyped(TextRange range) const { return isTyped(wordsOf(range)); }
+
+  // Plain ones do not say what they are, and floats may begin with integers.
+  bool isOfFloatsAfterAll(TextRange range) const noexcept {
+    if (spelling_ != DescriptorSpelling::plain || !is_binary_) return false;
+    return std::any_of(range.begin, range.end,
+                       [](char c) { return c == '.' || c == '-' || c == 'e'; });
+  }
+  // Makes floats of the bytes that were read.
+  void becomeFloats(std::vector<std::uint8_t>& bytes) {
+    is_binary_ = false;
+    std::vector<std::uint8_t> numbers(bytes.size() * sizeof(float));
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+      const float value = bytes[i];
+      std::memcpy(&numbers[i * sizeof value], &value, sizeof value);
+    }
+    bytes.swap(numbers);
+  }
 
   // Appends one.
   void read(TextRange range, std::vector<std::uint8_t>& bytes) const {

@@ -5,9 +5,14 @@
 
 #include <gslam/base/platform.h>
 #include <gslam/base/simd.h>
+#include <gslam/vocabulary/detail/encode.h>
+#include <gslam/vocabulary/detail/exact_sum.h>
 #include <gslam/vocabulary/detail/half.h>
 #include <gslam/vocabulary/detail/visit.h>
 
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -36,9 +41,12 @@ inline float elementOf(const DescriptorFormat& format, const std::uint8_t* row, 
   }
   std::int8_t step;
   std::memcpy(&step, row + i, 1);
-  return format.offset + format.scale * static_cast<float>(step);
+  return floatOfStep(format, step);
 }
 
+// Of two of these their difference is off by no more than kDoubleError of the larger one, whether
+// or not a compiler fuses what is here.
+constexpr double kDoubleError = 1e-12;  // two sums of 4096 terms
 inline double exactDistance(const DescriptorFormat& format, const std::uint8_t* query,
                             const std::uint8_t* row) {
   double sum = 0;
@@ -51,40 +59,83 @@ inline double exactDistance(const DescriptorFormat& format, const std::uint8_t* 
   return sum;
 }
 
-// Rounding may exchange rows that are nearly equally near, and each variant rounds in its own way:
-// those that the bound of the error cannot tell apart are compared again, exactly. A sum of n terms
-// in any order is off by no more than (n + 2) units in the last place of each.
-inline Choice settle(const DescriptorFormat& format, std::size_t stride, const Visit& visit,
-                     const float* distances) {
-  std::uint32_t best = 0;
-  for (std::uint32_t c = 1; c < visit.count; ++c) {
-    if (distances[c] < distances[best]) best = c;
+// Whether `row` is nearer to a query than `other`, to the last bit.
+inline bool isExactlyNearer(const DescriptorFormat& format, const std::uint8_t* query,
+                            const std::uint8_t* row, const std::uint8_t* other) {
+  // The squares of the query are in both, so what is left is b b - 2 a b.
+  ExactSum sum;
+  for (std::size_t i = 0; i < format.size; ++i) {
+    float value;
+    std::memcpy(&value, query + i * 4, 4);
+    const float here = elementOf(format, row, i);
+    const float there = elementOf(format, other, i);
+    sum.addProduct(here, here);
+    sum.addProduct(value, here, -2);
+    sum.addProduct(there, there, -1);
+    sum.addProduct(value, there, 2);
   }
-  const float error = static_cast<float>(format.size + 4) * 1.2e-7f;
-  const float limit = distances[best] * (1 + 2 * error);
-  std::uint32_t rivals = 0;
-  for (std::uint32_t c = 0; c < visit.count; ++c) {
-    if (!(distances[c] > limit)) ++rivals;
-  }
-  if (rivals == 1) return Choice{best, distances[best]};
+  return sum.isNegative();
+}
+
+// The nearest of those whose distance is not over the limit, the first of equals.
+GSLAM_COLD inline Choice settleExactly(const DescriptorFormat& format, std::size_t stride,
+                                       const Visit& visit, const float* distances, float limit) {
+  std::uint32_t best = visit.count;
   double least = 0;
-  bool has_one = false;
   for (std::uint32_t c = 0; c < visit.count; ++c) {
     if (distances[c] > limit) continue;
-    const double distance = exactDistance(format, visit.query, visit.rows + c * stride);
-    if (has_one && !(distance < least)) continue;
-    has_one = true;
+    const std::uint8_t* const row = visit.rows + c * stride;
+    const double distance = exactDistance(format, visit.query, row);
+    if (best != visit.count) {
+      const bool is_clear = std::abs(distance - least) > kDoubleError * std::max(distance, least);
+      const bool is_finite = std::isfinite(distance) && std::isfinite(least);
+      if (is_clear || !is_finite) {
+        if (!(distance < least)) continue;
+      } else if (!isExactlyNearer(format, visit.query, row, visit.rows + best * stride)) {
+        continue;
+      }
+    }
     least = distance;
     best = c;
   }
   return Choice{best, static_cast<float>(least)};
 }
 
+// Kernels read numbers of int8 a little beside what they are, as they round and a compiler may
+// fuse: what a limit of squares of distances becomes by that.
+GSLAM_COLD inline float withDecodingError(const DescriptorFormat& format, float limit) {
+  const float error = 2.4e-7f * (std::abs(format.offset) + 128 * std::abs(format.scale));
+  const float root = std::sqrt(limit) + 2 * error * std::sqrt(static_cast<float>(format.size));
+  return root * root;
+}
+
+// Rounding may exchange rows that are nearly equally near, and each variant rounds in its own way:
+// those that the bound of the error cannot tell apart are compared again, exactly. A sum of n terms
+// in any order is off by no more than (n + 2) units in the last place of each, and where squares
+// are too small for floats by one of the smallest for each.
+inline Choice settle(const DescriptorFormat& format, std::size_t stride, const Visit& visit,
+                     const float* distances) {
+  std::uint32_t best = 0;
+  for (std::uint32_t c = 1; c < visit.count; ++c) {
+    if (distances[c] < distances[best]) best = c;
+  }
+  const auto size = static_cast<float>(format.size);
+  const float error = (size + 4) * 1.2e-7f;
+  float limit = distances[best] * (1 + 2 * error) + 4 * size * FLT_MIN;
+  if (format.type == DescriptorType::int8) limit = withDecodingError(format, limit);
+  std::uint32_t rivals = 0;
+  for (std::uint32_t c = 0; c < visit.count; ++c) {
+    if (!(distances[c] > limit)) ++rivals;
+  }
+  if (rivals == 1) return Choice{best, distances[best]};
+  return settleExactly(format, stride, visit, distances, limit);
+}
+
 inline void chooseFloatScalar(const DescriptorFormat& format, std::size_t stride,
                               const Visit* visits, std::size_t count, Choice* choices) {
   for (std::size_t i = 0; i < count; ++i) {
     const Visit& visit = visits[i];
-    float distances[64];
+    float distances[64] = {};
     for (std::uint32_t c = 0; c < visit.count; ++c) {
       const std::uint8_t* const row = visit.rows + c * stride;
       float sum = 0;

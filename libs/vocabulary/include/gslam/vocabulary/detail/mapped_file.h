@@ -56,7 +56,8 @@ class MappedFile {
 #if GSLAM_DETAIL_HAS_MMAP
 
 inline MappedFile::MappedFile(const std::string& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  // A pipe must not wait for somebody who writes; for files the flag means nothing.
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) throw FileError(path, "cannot be opened", errno);
   struct stat facts;
   const bool is_known = ::fstat(file, &facts) == 0;

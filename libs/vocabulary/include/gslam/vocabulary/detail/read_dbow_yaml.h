@@ -82,11 +82,11 @@ class YamlCursor {
     failExpected(what);
   }
 
-  std::uint32_t readUnsigned(std::uint32_t largest) {
+  std::uint32_t readUnsigned(std::uint32_t largest, std::uint32_t least = 0) {
     std::uint32_t value = 0;
     const char* const after = scanUnsigned(at_, text_.end(), largest, value);
-    if (after == nullptr || !isEndOfValue(after)) {
-      failExpected("a number of 0 to " + std::to_string(largest));
+    if (after == nullptr || value < least || !isEndOfValue(after)) {
+      failExpected("a number of " + std::to_string(least) + " to " + std::to_string(largest));
     }
     at_ = after;
     return value;
@@ -199,10 +199,10 @@ class DbowYamlReader {
     mark(fields_, field, at);
     switch (field) {
       case 0:
-        data_.branching = cursor_.readUnsigned(1000);
+        data_.branching = cursor_.readUnsigned(kMostChildren, 2);
         break;
       case 1:
-        data_.depth = cursor_.readUnsigned(1000);
+        data_.depth = cursor_.readUnsigned(kMostDepth, 1);
         break;
       case 2:
         data_.scoring = static_cast<Scoring>(cursor_.readUnsigned(5));
@@ -267,6 +267,7 @@ class DbowYamlReader {
       descriptors_.decidePlain(first_);
       descriptors_.read(first_, data_.descriptors);
     }
+    if (descriptors_.isOfFloatsAfterAll(range)) descriptors_.becomeFloats(data_.descriptors);
     descriptors_.read(range, data_.descriptors);
     ++descriptor_count_;
   }

@@ -119,7 +119,7 @@ class FbowReader {
   // Inside a block: u16 children, u16 whether all are leaves, u32 parent; K rows; K times u32 and
   // f32. Nothing may overlap; what the padding is, is the file's business.
   void checkBlock() const {
-    if (branching_ < 1 || branching_ > 0xFFFF) {
+    if (branching_ < 2 || branching_ > kMostChildren) {
       bytes_.fail(kBranching, "K is " + std::to_string(branching_) + ", expected 2 to 64");
     }
     const std::uint64_t most = std::uint64_t(1) << 30;  // so that nothing overflows

@@ -61,12 +61,14 @@ class OrbTextReader {
   }
 
   // Blanks in front, and a space or the end behind.
-  std::uint32_t readNumber(const char*& p, std::uint32_t largest, const char* what) const {
+  std::uint32_t readNumber(const char*& p, std::uint32_t largest, const char* what,
+                           std::uint32_t least = 0) const {
     p = skipBlanks(p);
     std::uint32_t value = 0;
     const char* const after = scanUnsigned(p, end_, largest, value);
-    if (after == nullptr || (after != end_ && !isSpace(*after))) {
-      text_.failExpected(p, std::string(what) + " of 0 to " + std::to_string(largest));
+    if (after == nullptr || value < least || (after != end_ && !isSpace(*after))) {
+      text_.failExpected(
+          p, std::string(what) + " of " + std::to_string(least) + " to " + std::to_string(largest));
     }
     p = after;
     return value;
@@ -81,8 +83,8 @@ class OrbTextReader {
 
   void readHeader() {
     const char* p = text_.begin();
-    data_.branching = readNumber(p, 1000, "the branching K");
-    data_.depth = readNumber(p, 1000, "the depth L");
+    data_.branching = readNumber(p, kMostChildren, "the branching K", 2);
+    data_.depth = readNumber(p, kMostDepth, "the depth L", 1);
     data_.scoring = static_cast<Scoring>(readNumber(p, 5, "the number of a scoring"));
     data_.weighting = static_cast<Weighting>(readNumber(p, 3, "the number of a weighting"));
     endLine(p);

@@ -39,7 +39,9 @@ class Storage {
   }
   std::uint8_t* data() noexcept { return data_; }  // null: a file
   std::size_t size() const noexcept { return size_; }
-  bool isMapped() const noexcept { return data_ == nullptr && size_ != 0; }
+  bool isMapped() const noexcept {
+    return GSLAM_DETAIL_HAS_MMAP != 0 && data_ == nullptr && size_ != 0;
+  }
 
  private:
   Storage() = default;

@@ -14,6 +14,10 @@ namespace gslam {
 inline namespace v1 {
 namespace detail {
 
+constexpr std::uint32_t kMostChildren = 64;
+constexpr std::uint32_t kMostDepth = 64;
+constexpr std::uint32_t kMostDescriptorSize = 4096;
+
 // All nodes but the root, which has the id 0. buildVocabulary() checks all of it but what is said
 // below, and orders it.
 struct TreeData {

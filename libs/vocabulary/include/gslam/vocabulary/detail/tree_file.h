@@ -5,6 +5,7 @@
 #include <gslam/base/detail/checksum.h>
 #include <gslam/base/error.h>
 #include <gslam/vocabulary/detail/build_tree.h>
+#include <gslam/vocabulary/detail/encode.h>
 #include <gslam/vocabulary/detail/storage.h>
 #include <gslam/vocabulary/detail/swap_tree.h>
 #include <gslam/vocabulary/detail/tree_layout.h>
@@ -57,11 +58,24 @@ inline TreeHeader headerOf(const TreeView& tree) {
   return header;
 }
 
+// Whether a tree is a file with its checksums, mapped or in memory. Before a tree that was made
+// there are zeros.
+inline bool isFile(const Storage& storage) {
+  return storage.size() >= kTreeHeaderSize &&
+         std::memcmp(storage.data(), kTreeMagic, sizeof kTreeMagic - 1) == 0;
+}
+
 inline void checkBody(const Storage& storage, std::uint64_t checksum, const std::string& name) {
   const std::uint64_t sum =
       Xxh64::of(storage.data() + kTreeHeaderSize, storage.size() - kTreeHeaderSize);
   if (sum == checksum) return;
   throw ParseError(name, 0, 0, "is damaged: bytes 256 to its end do not fit its checksum");
+}
+inline void checkBody(const Storage& storage, const std::string& name) {
+  if (!isFile(storage)) return;
+  TreeHeader header;
+  std::memcpy(&header, storage.data(), sizeof header);
+  checkBody(storage, header.checksum, name);
 }
 
 // Makes a tree of the bytes of a file, of which only the header is read.
@@ -134,6 +148,11 @@ class TreeOpener {
     tree.format.size = header_.descriptor_size;
     tree.format.scale = header_.scale;
     tree.format.offset = header_.offset;
+    if (!hasSoundSteps(tree.format)) {
+      fail("has the scale " + std::to_string(header_.scale) + " and the offset " +
+           std::to_string(header_.offset) +
+           " at byte 28, expected finite numbers, and no scale of 0");
+    }
     tree.stride = strideOf(tree.format);
     tree.branching = header_.branching;
     tree.depth = header_.depth;
@@ -152,11 +171,13 @@ class TreeOpener {
          std::to_string(most));
   }
 
-  // Of another machine: a copy in the order of this one. All of it is read, so it is checked, too.
+  // Of another machine: a copy of the lists in the order of this one. All of it is read, so it is
+  // checked, too.
   void swapAll(const TreeView& tree, const TreeLayout& layout, bool has_numbers, bool has_ids) {
     checkBody(*storage_, header_.checksum, name_);
     const std::shared_ptr<Storage> copy = Storage::ofSize(storage_->size());
-    std::memcpy(copy->data(), storage_->data(), storage_->size());
+    std::memcpy(copy->data() + kTreeHeaderSize, storage_->data() + kTreeHeaderSize,
+                storage_->size() - kTreeHeaderSize);
     swapLists(tree, layout, has_numbers, has_ids, copy->data());
     storage_ = copy;
   }
@@ -174,6 +195,7 @@ class TreeChecker {
 
   void check() const {
     checkNodes();
+    checkDescriptors();
     checkWeights();
     if (tree_.node_ids != nullptr) checkIds();
   }
@@ -183,7 +205,7 @@ class TreeChecker {
     throw ParseError(name_, 0, 0, what + (" " + std::to_string(number)) + " " + problem);
   }
 
-  // Children follow each other; each leaf is a word, and each word a leaf.
+  // Children follow each other, behind their parents; each leaf is a word, and each word a leaf.
   void checkNodes() const {
     std::vector<bool> is_taken(tree_.word_count, false);
     std::uint64_t next_child = 1;
@@ -191,6 +213,7 @@ class TreeChecker {
     for (std::uint32_t node = 0; node < tree_.node_count; ++node) {
       const std::uint32_t count = tree_.child_counts[node];
       const std::uint32_t link = tree_.links[node];
+      if (node >= next_child) fail("node", node, "has no parent");
       if (count > tree_.branching) {
         fail("node", node,
              "has " + std::to_string(count) + " children, but no more than " +
@@ -236,6 +259,19 @@ class TreeChecker {
       level_end = last_child;
     }
     fail("node", level_end, "is deeper than " + std::to_string(tree_.depth));
+  }
+
+  // Kernels read what is behind a descriptor, too.
+  void checkDescriptors() const {
+    const std::size_t size = bytesOf(tree_.format);
+    for (std::uint32_t node = 0; node < tree_.node_count; ++node) {
+      const std::uint8_t* const row = descriptorOf(tree_, node);
+      if (!isFiniteRow(tree_.format, row))
+        fail("node", node, "has a descriptor that is not finite");
+      for (std::size_t i = size; i < tree_.stride; ++i) {
+        if (row[i] != 0) fail("node", node, "has bytes other than 0 behind its descriptor");
+      }
+    }
   }
 
   void checkWeights() const {

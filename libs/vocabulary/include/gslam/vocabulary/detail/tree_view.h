@@ -43,13 +43,13 @@ struct Children {
   std::uint32_t count;  // 0: a leaf
 };
 
-// Whatever the file says, they are behind the node and inside the tree: so a way down ends, and
-// never leaves the memory.
+// Whatever the file says, they are behind the node and inside the tree, and no more than kernels
+// have room for: so a way down ends, and never leaves the memory.
 inline Children childrenOf(const TreeView& tree, std::uint32_t node) noexcept {
   const std::uint32_t count = tree.child_counts[node];
   const std::uint32_t first = tree.links[node];
-  const bool is_sound =
-      first > node && first <= tree.node_count && count <= tree.node_count - first;
+  const bool is_sound = count <= tree.branching && first > node && first <= tree.node_count &&
+                        count <= tree.node_count - first;
   return Children{first, is_sound ? count : 0};
 }
 
