@@ -200,8 +200,10 @@ std::string machineText(const ResourceReport& r) {
           : because("energy", r.energy.why_not);
   out +=
       r.gpu.why_not.empty()
-          ? line("GPU", format("%.1f %%, most %.1f %%, memory most %.1f MB", r.gpu.mean_percent,
-                               r.gpu.highest_percent, double(r.gpu.peak_memory_bytes) / kMegabyte))
+          ? line("GPU", format("%.1f %%, most %.1f %%", r.gpu.mean_percent, r.gpu.highest_percent) +
+                            (r.gpu.has_memory ? format(", memory most %.1f MB",
+                                                       double(r.gpu.peak_memory_bytes) / kMegabyte)
+                                              : ""))
           : because("GPU", r.gpu.why_not);
   return out + line("sampling", format("%zu samples, %.2f %% of one core", r.samples_taken,
                                        r.overhead_percent));

@@ -121,10 +121,16 @@ std::vector<int> listOf(const cpu_set_t& set) {
 void setForAllThreads(const cpu_set_t& set) {
   std::vector<long> threads, done;
   for (int round = 0; round < 100; ++round) {
-    detail::numbersIn("/proc/self/task", threads);
+    if (!detail::numbersIn("/proc/self/task", threads)) {
+      throw Error("cannot choose cores for all threads: /proc/self/task cannot be read");
+    }
     std::sort(threads.begin(), threads.end());
     if (threads == done) return;
-    for (const long thread : threads) ::sched_setaffinity(pid_t(thread), sizeof set, &set);
+    for (const long thread : threads) {
+      const bool is_set = ::sched_setaffinity(pid_t(thread), sizeof set, &set) == 0;
+      if (!is_set && errno != ESRCH)
+        fail("cannot choose cores for thread " + std::to_string(thread));
+    }
     done = threads;
   }
 }

@@ -161,6 +161,10 @@ TEST(Cost, becomesAText) {
     EXPECT_NE(text.find(part), std::string::npos) << part << '\n' << text;
   }
   EXPECT_NE(text.find(made.resources.gpu.why_not), std::string::npos);
+  made.resources.gpu.why_not = "";
+  EXPECT_EQ(gslam::costText(gslam::costOf(made)).find("memory most"), std::string::npos);
+  made.resources.gpu.has_memory = true;
+  EXPECT_NE(gslam::costText(gslam::costOf(made)).find("memory most 0.0 MB"), std::string::npos);
   EXPECT_EQ(text.back(), '\n');
 }
 

@@ -244,6 +244,20 @@ TEST(ResourceMonitor, addsUpEnergy) {
   EXPECT_NEAR(monitor.stop().energy.package_joules, 5 + 299, 1e-9);
 }
 
+// Memory whose energy cannot be read leaves that of the packages.
+TEST(ResourceMonitor, tellsPackagesWithoutMemory) {
+  const FakeMachine machine;
+  machine.putZone("intel-rapl:0", "package-0", "1000000\n");
+  machine.putZone("intel-rapl:0:0", "dram", "5\n");
+  machine.write("class/powercap/intel-rapl:1:0/name", "dram\n");  // no counter
+  ResourceMonitor monitor(std::make_shared<ProcessTree>(), machine.options());
+  machine.putZone("intel-rapl:0", "package-0", "3000000\n");
+  const gslam::EnergyReport energy = monitor.stop().energy;
+  EXPECT_EQ(energy.why_not, "");
+  EXPECT_NEAR(energy.package_joules, 2, 1e-9);
+  EXPECT_FALSE(energy.has_dram);  // half of it would be wrong
+}
+
 // To start NVML takes long; what the machine uses meanwhile is not the run's.
 TEST(ResourceMonitor, beginsWithEnergyLast) {
   const FakeMachine machine;
