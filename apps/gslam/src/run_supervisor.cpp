@@ -3,6 +3,7 @@
 #include <gslam/core/isolated_slam.h>
 #include <gslam/core/trajectory_file.h>
 #include <gslam/evaluation/allocation_counts.h>
+#include <gslam/evaluation/limits.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -248,6 +249,7 @@ SupervisedRun RunSupervisor::run(const std::vector<std::string>& arguments,
     process.kill();
   }
   meter.end();
+  gslam::removeEndedMemoryGroups();  // of a process that had more memory than it may
   if (!how.is_late) how.phase = board->phase;
   {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -75,7 +75,6 @@ void WatchedSlam::configure(const gslam::SlamSetup& setup) {
 }
 
 void WatchedSlam::feed(const std::shared_ptr<const gslam::Frame>& frame) {
-  dropUntil(frame->id);
   recorders_.board.frame = frame->id;
   recorders_.board.has_frame = true;
   feeder_ = std::this_thread::get_id();
@@ -99,12 +98,11 @@ void WatchedSlam::finish() {
 }
 
 void WatchedSlam::notePlayed(const gslam::Frame& frame) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  played_.emplace_back(frame.id, frame.stamp);
+  measured_.noteDelivered(frame.id, frame.stamp);
 }
 
 void WatchedSlam::end() {
-  dropUntil(UINT64_MAX);
+  measured_.dropWaiting();
   for (const gslam::FrameTime& frame : measured_.frames()) {
     if (frame.corrections > 0) recorders_.frames.add(frame);
   }
@@ -124,19 +122,6 @@ void WatchedSlam::takeFrame(const gslam::FrameTime& frame) {
   } else {
     recorders_.frames.add(frame);
   }
-}
-
-void WatchedSlam::dropUntil(std::uint64_t frame) {
-  std::vector<std::pair<std::uint64_t, std::int64_t>> dropped;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    while (!played_.empty() && played_.front().first < frame) {
-      dropped.push_back(played_.front());
-      played_.pop_front();
-    }
-    if (!played_.empty() && played_.front().first == frame) played_.pop_front();
-  }
-  for (const auto& one : dropped) measured_.noteDropped(one.first, one.second);
 }
 
 void WatchedSlam::writeWaiting() {
