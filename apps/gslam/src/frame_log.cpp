@@ -96,6 +96,10 @@ FrameTime frameOf(const Line& line) {
   frame.cpu_ms = line.number("cpu_ms");
   frame.allocations = line.count("allocations");
   frame.allocated_bytes = line.count("allocated_bytes");
+  frame.has_allocations = !line.text("allocations").empty();
+  frame.cpu_ms_before = line.number("cpu_ms_before");
+  frame.allocations_before = line.count("allocations_before");
+  frame.allocated_bytes_before = line.count("allocated_bytes_before");
   frame.state = stateCalled(line.text("state"));
   frame.corrections = line.count("corrections");
   return frame;

@@ -26,7 +26,8 @@ class LiveTrajectory {
   void expect(const gslam::Frame& frame);
   void add(const gslam::TrackedPose& pose);
 
-  /// The last pose of each frame, where it has one. Of frames with the same stamp, the last frame's.
+  /// The last pose of each frame, where it has one. Of frames with the same stamp, the last
+  /// frame's.
   gslam::Trajectory last() const;
   /// Poses that are not finite, which count as lost, and of frames that were not fed, which are in
   /// no trajectory.

@@ -91,8 +91,9 @@ int playCommand(const std::vector<std::string>& arguments) {
       .group("Save");
   if (!options.read(withSettings(arguments))) return kSuccess;
   if (options.get<double>("timeout") != 0 && !options.get<bool>("isolate")) {
-    throw gslam::ConfigError("--timeout", "needs --isolate here: a call that hangs cannot be ended "
-                                          "within one process");
+    throw gslam::ConfigError("--timeout",
+                             "needs --isolate here: a call that hangs cannot be ended "
+                             "within one process");
   }
   Session session(options);
   session.findSlam(options);

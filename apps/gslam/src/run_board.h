@@ -34,8 +34,8 @@ struct RunBoard {
   std::atomic<std::int64_t> process{0};  ///< that runs the SLAM system
   std::atomic<std::uint64_t> invalid_poses{0};  ///< as LiveTrajectory counts them
   std::atomic<std::uint64_t> wrong_stamps{0};   ///< likewise
-  std::atomic<bool> is_watched{false};   ///< the answer to `ready`
-  std::atomic<bool> is_read{false};      ///< the answer to `played`
+  std::atomic<bool> is_watched{false};          ///< the answer to `ready`
+  std::atomic<bool> is_read{false};             ///< the answer to `played`
 
   void enter(RunPhase next) noexcept;
 };

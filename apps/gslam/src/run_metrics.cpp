@@ -25,12 +25,11 @@ std::vector<TrackedFrame> givenFrames(const FrameRecords& records) {
         !frame.is_dropped && frame.has_result && frame.state == gslam::TrackingState::tracking;
     frames.push_back({frame.stamp, is_tracked});
   }
-  std::stable_sort(frames.begin(), frames.end(), [](const TrackedFrame& a, const TrackedFrame& b) {
-    return a.stamp < b.stamp;
-  });
-  const auto end = std::unique(
-      frames.begin(), frames.end(),
-      [](const TrackedFrame& a, const TrackedFrame& b) { return a.stamp == b.stamp; });
+  std::stable_sort(frames.begin(), frames.end(),
+                   [](const TrackedFrame& a, const TrackedFrame& b) { return a.stamp < b.stamp; });
+  const auto end =
+      std::unique(frames.begin(), frames.end(),
+                  [](const TrackedFrame& a, const TrackedFrame& b) { return a.stamp == b.stamp; });
   frames.erase(end, frames.end());
   return frames;
 }
@@ -42,7 +41,8 @@ struct Extent {
 };
 
 // By what the dataset tells, or else by ground truth.
-Extent extentOf(const Svar& report, const Trajectory& truth, const std::vector<TrackedFrame>& given) {
+Extent extentOf(const Svar& report, const Trajectory& truth,
+                const std::vector<TrackedFrame>& given) {
   Extent extent;
   extent.frames = report.get<std::uint64_t>("dataset.frames", 0);
   extent.first = report.get<std::int64_t>("dataset.first_stamp", 0);
@@ -78,8 +78,9 @@ std::uint64_t addFramesToCome(const FrameRecords& records, const Svar& report,
   if (most > 0) planned = std::min(planned, most);
   const std::uint64_t done = records.frames.size() + records.unreadable;
   const std::uint64_t to_come = planned > done ? planned - done : 0;
-  std::int64_t stamp = frames.empty() ? extent.first + std::int64_t(first) * extent.step - extent.step
-                                      : frames.back().stamp;
+  std::int64_t stamp = frames.empty()
+                           ? extent.first + std::int64_t(first) * extent.step - extent.step
+                           : frames.back().stamp;
   for (std::uint64_t i = 0; i < to_come; ++i) frames.push_back({stamp += extent.step, false});
   return to_come;
 }

@@ -135,7 +135,8 @@ Svar summaryOf(const std::vector<Svar>& metrics) {
 std::string summaryText(const Svar& summary) {
   std::ostringstream out;
   out << "runs         " << summary.get<std::size_t>("runs.count") << ", of which "
-      << summary.get<std::size_t>("runs.failed") << " did not finish: these count with what they reached, or if they were stopped not "
+      << summary.get<std::size_t>("runs.failed")
+      << " did not finish: these count with what they reached, or if they were stopped not "
          "at all\n";
   const std::pair<const char*, const char*> kFigures[] = {
       {"coverage     part of frames      ", "coverage.frames"},

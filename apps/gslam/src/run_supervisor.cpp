@@ -2,6 +2,7 @@
 
 #include <gslam/core/isolated_slam.h>
 #include <gslam/evaluation/allocation_counts.h>
+#include <gslam/evaluation/limits.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -162,14 +163,15 @@ std::string textOf(const Abnormal& how, const RunBoard& board, const RunOptions&
     return process + outside + ", before the first call";
   }
   if (how.phase >= RunPhase::played) return process + outside + ", while it wrote the results";
-  std::string text = "the SLAM system " + (how.phase == RunPhase::making
-                                               ? outside + ", while it was loaded and made"
-                                               : failure);
+  std::string text =
+      "the SLAM system " +
+      (how.phase == RunPhase::making ? outside + ", while it was loaded and made" : failure);
   if (how.is_late) text += "; --timeout says how long a call may take";
   if (!how.is_late && mayBeMemory(how, options)) {
     text += "; it may have no more memory than --memory " + options.get<std::string>("memory");
   }
-  if (!how.is_late && how.phase == RunPhase::waiting) text += " (one of its threads, or the dataset)";
+  if (!how.is_late && how.phase == RunPhase::waiting)
+    text += " (one of its threads, or the dataset)";
   return text;
 }
 
@@ -258,6 +260,7 @@ SupervisedRun RunSupervisor::run(const std::vector<std::string>& arguments,
   }
   meter.end();
   how.end = process.collect();
+  gslam::removeEndedMemoryGroups();  // of a process that had more memory than it may
   if (!how.is_late) how.phase = board->phase;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -274,9 +277,7 @@ SupervisedRun RunSupervisor::run(const std::vector<std::string>& arguments,
   if (how.phase == RunPhase::ended) {
     result.report = Svar::load(folder.report());
     const auto end = result.report.get<std::string>("result.end", "");
-    const int expected = end == "finished"  ? kSuccess
-                         : end == "stopped" ? kInterrupted
-                                            : kFailure;
+    const int expected = end == "finished" ? kSuccess : end == "stopped" ? kInterrupted : kFailure;
     if (!how.is_late && !how.end.is_signal && how.end.number == expected) return result;
     result.report.set("result.remark",
                       "the process " + gslam::toText(failureOf(how, *board, options_)) +

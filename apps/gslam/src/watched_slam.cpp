@@ -76,7 +76,6 @@ void WatchedSlam::configure(const gslam::SlamSetup& setup) {
 }
 
 void WatchedSlam::feed(const std::shared_ptr<const gslam::Frame>& frame) {
-  dropUntil(frame->id);
   recorders_.live.expect(*frame);
   recorders_.board.frame = frame->id;
   recorders_.board.has_frame = true;
@@ -101,12 +100,11 @@ void WatchedSlam::finish() {
 }
 
 void WatchedSlam::notePlayed(const gslam::Frame& frame) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  played_.emplace_back(frame.id, frame.stamp);
+  measured_.noteDelivered(frame.id, frame.stamp);
 }
 
 void WatchedSlam::end() {
-  dropUntil(UINT64_MAX);
+  measured_.dropWaiting();
   for (const gslam::FrameTime& frame : measured_.frames()) {
     if (frame.corrections > 0) recorders_.frames.add(frame);
   }
@@ -118,15 +116,24 @@ void WatchedSlam::write(const gslam::TrackedPose& pose) {
   recorders_.board.wrong_stamps = recorders_.live.wrongStamps();
 }
 
+// Behind those that wait, so that they stay in order.
 void WatchedSlam::takePose(const gslam::TrackedPose& pose) {
-  if (isInside()) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (isInside() || !poses_.empty()) {
     poses_.push_back(pose);
   } else {
     write(pose);
   }
 }
 
+// The last that is written of a frame counts: what waits must not be older than what is written.
 void WatchedSlam::takeFrame(const gslam::FrameTime& frame) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (gslam::FrameTime& waiting : frames_) {
+    if (waiting.frame != frame.frame) continue;
+    waiting = frame;
+    return;
+  }
   if (isInside()) {
     frames_.push_back(frame);
   } else {
@@ -134,20 +141,8 @@ void WatchedSlam::takeFrame(const gslam::FrameTime& frame) {
   }
 }
 
-void WatchedSlam::dropUntil(std::uint64_t frame) {
-  std::vector<std::pair<std::uint64_t, std::int64_t>> dropped;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    while (!played_.empty() && played_.front().first < frame) {
-      dropped.push_back(played_.front());
-      played_.pop_front();
-    }
-    if (!played_.empty() && played_.front().first == frame) played_.pop_front();
-  }
-  for (const auto& one : dropped) measured_.noteDropped(one.first, one.second);
-}
-
 void WatchedSlam::writeWaiting() {
+  const std::lock_guard<std::mutex> lock(mutex_);
   feeder_ = std::thread::id();
   for (const gslam::TrackedPose& pose : poses_) write(pose);
   for (const gslam::FrameTime& frame : frames_) recorders_.frames.add(frame);

@@ -6,7 +6,6 @@
 
 #include <atomic>
 #include <cstdint>
-#include <deque>
 #include <exception>
 #include <memory>
 #include <mutex>
@@ -49,7 +48,8 @@ class WatchedSlam : public gslam::Slam {
   std::shared_ptr<const gslam::Map> map() override;
   void finish() override;
 
-  /// Notes a frame that was played: those that are not fed before a later one were dropped.
+  /// Notes a frame that was played: its time begins, and those that are not fed before a later one
+  /// were dropped.
   void notePlayed(const gslam::Frame& frame);
   /// No frame comes any more: those that were played and not fed were dropped. Lines of frames
   /// whose poses were published again are written again.
@@ -65,7 +65,6 @@ class WatchedSlam : public gslam::Slam {
   void write(const gslam::TrackedPose& pose);
   void takePose(const gslam::TrackedPose& pose);
   void takeFrame(const gslam::FrameTime& frame);
-  void dropUntil(std::uint64_t frame);
   void writeWaiting();
   bool isInside() const { return feeder_ == std::this_thread::get_id(); }
 
@@ -74,11 +73,10 @@ class WatchedSlam : public gslam::Slam {
   std::string cause_;
   std::atomic<std::thread::id> feeder_{};  // that is in feed(); else none
   // What waits for the end of feed().
+  std::mutex mutex_;
   std::vector<gslam::TrackedPose> poses_;
   std::vector<gslam::FrameTime> frames_;
-  std::mutex mutex_;
-  std::deque<std::pair<std::uint64_t, std::int64_t>> played_;  // id and stamp, not fed yet
-  gslam::Subscriber subscriber_;                               // last: ends before the rest goes
+  gslam::Subscriber subscriber_;  // last: ends before the rest goes
 };
 
 /// A dataset around another: notes frames that cannot be read.

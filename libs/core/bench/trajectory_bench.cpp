@@ -127,6 +127,33 @@ void writeByStream(benchmark::State& state) {
   setBytes(state, size);
 }
 
+// Long recordings: as many lines as the argument says, each with a stamp of its own.
+void readLong(benchmark::State& state) {
+  const std::string lines = shortText(walk(), TrajectoryFormat::tum);
+  std::string text;
+  text.reserve(std::size_t(state.range(0)) * 100);
+  std::size_t at = 0;
+  for (std::int64_t i = 0; i < state.range(0); ++i) {
+    if (at == lines.size()) at = 0;
+    const std::size_t end = lines.find('\n', at) + 1;
+    text += gslam::secondsText(1305031098665900000 + i * 5000000);
+    text.append(lines, lines.find(' ', at), end - lines.find(' ', at));
+    at = end;
+  }
+  for (auto _ : state) {
+    const Trajectory read = gslam::parseTrajectory(text, "bench");
+    if (std::int64_t(read.size()) != state.range(0)) state.SkipWithError("poses are missing");
+    benchmark::DoNotOptimize(read);
+  }
+  setBytes(state, text.size());
+  state.SetItemsProcessed(state.iterations() * state.range(0));  // poses
+}
+BENCHMARK(readLong)
+    ->Name("trajectory_read_tum_poses/gslam")
+    ->Arg(1000000)
+    ->Arg(10000000)
+    ->Unit(benchmark::kMillisecond);
+
 int registerAll() {
   const Trajectory trajectory = walk();
   for (const TrajectoryFormat format :

@@ -9,21 +9,25 @@
 #define GSLAM_DETAIL_HAS_SANITIZER 1
 #endif
 #endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || defined(__SANITIZE_HWADDRESS__)
 #define GSLAM_DETAIL_HAS_SANITIZER 1
 #endif
 
 #if defined(__linux__) && defined(__GLIBC__) && !defined(GSLAM_DETAIL_HAS_SANITIZER)
 
+#include <fcntl.h>
 #include <malloc.h>
 #include <pthread.h>
+#include <signal.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 
 #include "../src/allocation_table.h"
 
@@ -41,6 +45,10 @@ void __libc_free(void*);
 namespace {
 
 using gslam_allocations::Counter;
+using gslam_allocations::Ended;
+using gslam_allocations::FileHeader;
+using gslam_allocations::kMaker;
+using gslam_allocations::kTables;
 using gslam_allocations::Slot;
 using gslam_allocations::Table;
 
@@ -136,8 +144,185 @@ void endThread(void* slot_of_thread) {
   own->is_in_use.store(0, std::memory_order_release);
 }
 
-// A forked child is alone, with a copy of the counts; slots of threads that it lacks are free.
+// The file that this process inherited; -1: none.
+int inheritedFile() {
+  const char* const text = getenv(gslam_allocations::kVariable);  // NOLINT(concurrency-mt-unsafe)
+  if (text == nullptr) return -1;
+  char* end = nullptr;
+  const long file = strtol(text, &end, 10);
+  if (end == text || *end != ':' || file < 0 || file > 1000000) return -1;
+  const unsigned long long inode = strtoull(end + 1, &end, 10);
+  struct stat facts;
+  const bool is_it = *end == '\0' && fstat(int(file), &facts) == 0 && facts.st_ino == inode &&
+                     std::size_t(facts.st_size) == gslam_allocations::kFileSize &&
+                     std::size_t(sysconf(_SC_PAGESIZE)) <= sizeof(Table);
+  return is_it ? int(file) : -1;
+}
+
+// When this process began, ticks: with its number, which one it is, whatever program it runs. 0:
+// not known.
+std::uint64_t startOfProcess() {
+  const int file = open("/proc/self/stat", O_RDONLY | O_CLOEXEC);
+  if (file < 0) return 0;
+  char text[1024];
+  const ssize_t size = read(file, text, sizeof text - 1);
+  close(file);
+  text[std::max<ssize_t>(size, 0)] = '\0';
+  const char* at = strrchr(text, ')');  // ends the name; the state behind it is field 3
+  for (int field = 2; at != nullptr && field < 22; ++field) at = strchr(at + 1, ' ');
+  return at == nullptr ? 0 : strtoull(at, nullptr, 10);
+}
+
+// Of a process that holds it and was stopped nobody waits for ever.
+bool lock(int file, short kind) {
+  struct flock how = {};
+  how.l_type = kind;
+  how.l_whence = SEEK_SET;
+  for (int i = 0; i < 10000; ++i) {
+    if (fcntl(file, F_SETLK, &how) == 0) return true;
+    usleep(100);
+  }
+  return false;
+}
+
+void add(Ended& sum, const Ended& more) {
+  Counter* const to = &sum.calls;
+  const Counter* const from = &more.calls;
+  for (int i = 0; i < 6; ++i) to[i].fetch_add(from[i].load(kRelaxed), kRelaxed);
+}
+
+// What a table that nobody writes any more has counted, with what had ended before it.
+void addAll(Ended& sum, const Table& of) {
+  const std::uint64_t used =
+      std::min<std::uint64_t>(of.used_slots.load(), gslam_allocations::kSlots);
+  for (std::uint64_t i = 0; i < used; ++i) {
+    const Slot& one = of.slots[i];
+    sum.calls.fetch_add(one.calls.load(kRelaxed), kRelaxed);
+    sum.bytes.fetch_add(one.bytes.load(kRelaxed), kRelaxed);
+    sum.frees.fetch_add(one.frees.load(kRelaxed), kRelaxed);
+    sum.given.fetch_add(one.given.load(kRelaxed), kRelaxed);
+    sum.taken.fetch_add(one.taken.load(kRelaxed), kRelaxed);
+  }
+  sum.peak.fetch_add(of.peak.load(kRelaxed), kRelaxed);
+  add(sum, of.ended);
+}
+
+off_t offsetOf(std::uint64_t index) {
+  return off_t((index + 1) * sizeof(Table));
+}
+
+bool makeEmpty(int file, std::uint64_t index) {
+  return fallocate(file, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, offsetOf(index),
+                   sizeof(Table)) == 0;
+}
+
+// A process is gone: what it counted is its parent's, and so are its children.
+bool giveToParent(FileHeader* header, int file, std::uint64_t index) {
+  Table* const tables = gslam_allocations::tablesOf(header);
+  const std::uint64_t parent = header->entries[index].parent.load();
+  if (parent == kMaker) addAll(header->ended, tables[index]);
+  if (parent > 0 && parent < kMaker) addAll(tables[parent - 1].ended, tables[index]);
+  for (std::uint64_t i = 0; i < header->used.load(); ++i) {
+    if (header->entries[i].parent.load() == index + 1) header->entries[i].parent.store(parent);
+  }
+  header->entries[index].process.store(0);
+  return makeEmpty(file, index);
+}
+
+// The table of the process that is gone longest; kTables: all live.
+std::uint64_t oldestEnded(const FileHeader* header) {
+  std::uint64_t oldest = kTables;
+  for (std::uint64_t i = 0; i < header->used.load(); ++i) {
+    const auto& entry = header->entries[i];
+    if (oldest < kTables && entry.order.load() > header->entries[oldest].order.load()) continue;
+    const pid_t process = pid_t(entry.process.load());
+    if (process == 0 || (kill(process, 0) != 0 && errno == ESRCH)) oldest = i;
+  }
+  return oldest;
+}
+
+// An empty table for this process, but for what it counted in a program that it ran before;
+// kTables: there is none.
+std::uint64_t claim(FileHeader* header, int file) {
+  const std::uint64_t own = std::uint64_t(getpid()), start = startOfProcess();
+  std::uint64_t index = kTables, used = std::min<std::uint64_t>(header->used.load(), kTables);
+  for (std::uint64_t i = 0; i < used && index == kTables; ++i) {
+    if (header->entries[i].process.load() == own) index = i;
+  }
+  if (index < kTables && header->entries[index].start.load() == start) {
+    Table* const before = &gslam_allocations::tablesOf(header)[index];
+    Ended sum = {};
+    addAll(sum, *before);
+    if (!makeEmpty(file, index)) return kTables;
+    add(before->ended, sum);
+    return index;
+  }
+  if (index == kTables && used >= gslam_allocations::kKept) index = oldestEnded(header);
+  if (index < kTables && !giveToParent(header, file, index)) return kTables;
+  if (index == kTables) index = used;
+  if (index >= kTables) return kTables;
+  const std::uint64_t parent = std::uint64_t(getppid());
+  gslam_allocations::Entry& entry = header->entries[index];
+  entry.parent.store(parent == header->maker.load() ? kMaker : 0);
+  for (std::uint64_t i = 0; i < used; ++i) {
+    if (header->entries[i].process.load() == parent) entry.parent.store(i + 1);
+  }
+  entry.start.store(start);
+  entry.order.store(header->next_order.fetch_add(1));
+  entry.process.store(own);
+  header->used.store(std::max(used, index + 1));
+  return index;
+}
+
+// Counts in the file from now on, with what was counted already or, forked, from 0.
+bool moveTo(Table* shared, int file, std::uint64_t index, bool is_forked) {
+  if (is_forked) {
+    shared->is_shared.store(1, kRelaxed);
+  } else {
+    add(table.ended, shared->ended);
+    table.is_shared.store(1, kRelaxed);
+    const std::size_t size =
+        offsetof(Table, slots) + std::size_t(table.used_slots.load()) * sizeof(Slot);
+    if (pwrite(file, &table, size, offsetOf(index)) != ssize_t(size)) return false;
+  }
+  return mmap(&table, sizeof(Table), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED, file,
+              offsetOf(index)) != MAP_FAILED;
+}
+
+// Writes the table where a process that started this one can see it. While there is one thread.
+bool shareTable(bool is_forked) {
+  const int file = inheritedFile();
+  if (file < 0) return false;
+  void* const mapped =
+      mmap(nullptr, gslam_allocations::kFileSize, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  if (mapped == MAP_FAILED) return false;
+  FileHeader* const header = static_cast<FileHeader*>(mapped);
+  bool is_done = false;
+  if (header->magic.load() == gslam_allocations::kMagic && lock(file, F_WRLCK)) {
+    header->changes.store(header->changes.load() | 1);  // it may be odd: one died here
+    const std::uint64_t index = claim(header, file);
+    if (index < kTables) {
+      is_done = moveTo(&gslam_allocations::tablesOf(header)[index], file, index, is_forked);
+      if (!is_done) header->entries[index].process.store(0);
+    }
+    header->changes.fetch_add(1);
+    lock(file, F_UNLCK);
+  }
+  munmap(mapped, gslam_allocations::kFileSize);
+  if (!is_done && !is_forked) table.is_shared.store(0, kRelaxed);
+  return is_done;
+}
+
+// A forked child is alone, and counts for itself: in a table of its own where its parent's can be
+// seen, or else with a copy of the counts, in which slots of threads that it lacks are free.
 void beginForkedChild() {
+  const int problem = errno;
+  const bool is_done = shareTable(true);
+  errno = problem;
+  if (is_done) {
+    own_slot = nullptr;
+    return;
+  }
   if (table.is_shared.load(kRelaxed) != 0) {
     void* const copy =
         mmap(nullptr, sizeof(Table), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -154,43 +339,9 @@ void beginForkedChild() {
   }
 }
 
-// Writes the table where a process that started this one can see it. While there is one thread.
-void shareTable() {
-  const char* const text = getenv(gslam_allocations::kVariable);  // NOLINT(concurrency-mt-unsafe)
-  if (text == nullptr) return;
-  char* end = nullptr;
-  const long file = strtol(text, &end, 10);
-  if (end == text || *end != ':' || file < 0 || file > 1000000) return;
-  const unsigned long long inode = strtoull(end + 1, &end, 10);
-  struct stat facts;
-  if (*end != '\0' || fstat(int(file), &facts) != 0 || facts.st_ino != inode ||
-      std::size_t(facts.st_size) != gslam_allocations::kFileSize ||
-      std::size_t(sysconf(_SC_PAGESIZE)) > sizeof(Table)) {
-    return;
-  }
-  void* const mapped =
-      mmap(nullptr, sizeof(Table), PROT_READ | PROT_WRITE, MAP_SHARED, int(file), 0);
-  if (mapped == MAP_FAILED) return;
-  gslam_allocations::FileHeader* const header = static_cast<gslam_allocations::FileHeader*>(mapped);
-  std::uint64_t index = gslam_allocations::kTables;
-  if (header->magic.load() == gslam_allocations::kMagic) index = header->next.fetch_add(1);
-  munmap(mapped, sizeof(Table));
-  if (index >= gslam_allocations::kTables) return;
-  const off_t offset = off_t((index + 1) * sizeof(Table));
-  table.is_shared.store(1, kRelaxed);
-  table.parent.store(std::uint64_t(getppid()), kRelaxed);
-  table.process.store(std::uint64_t(getpid()), kRelaxed);
-  const std::size_t size = std::size_t(table.used_slots.load() + 1) * sizeof(Slot);
-  if (pwrite(int(file), &table, size, offset) != ssize_t(size) ||
-      mmap(&table, sizeof(Table), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED, int(file),
-           offset) == MAP_FAILED) {
-    table.is_shared.store(0, kRelaxed);
-  }
-}
-
 __attribute__((constructor)) void beginProgram() {
   const int problem = errno;
-  shareTable();
+  shareTable(false);
   pthread_atfork(nullptr, nullptr, beginForkedChild);
   if (pthread_key_create(&at_thread_end, endThread) == 0) {
     has_key.store(true, std::memory_order_release);

@@ -4,6 +4,7 @@
 
 #if defined(__linux__)
 #include <fcntl.h>
+#include <sched.h>
 #include <stdlib.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -22,9 +23,9 @@ inline namespace v1 {
 
 AllocationCounts allocatedBetween(const AllocationCounts& earlier, const AllocationCounts& later) {
   AllocationCounts done = later;
-  done.calls -= earlier.calls;
-  done.bytes -= earlier.bytes;
-  done.frees -= earlier.frees;
+  done.calls -= std::min(done.calls, earlier.calls);
+  done.bytes -= std::min(done.bytes, earlier.bytes);
+  done.frees -= std::min(done.frees, earlier.frees);
   return done;
 }
 
@@ -32,7 +33,9 @@ AllocationCounts allocatedBetween(const AllocationCounts& earlier, const Allocat
 
 namespace {
 
+using gslam_allocations::Ended;
 using gslam_allocations::FileHeader;
+using gslam_allocations::kMaker;
 using gslam_allocations::kTables;
 using gslam_allocations::Slot;
 using gslam_allocations::Table;
@@ -61,12 +64,22 @@ AllocationCounts countsOf(const Table& table) noexcept {
   }
   counts.live_blocks = std::int64_t(counts.calls - counts.frees);
   counts.live_bytes = std::int64_t(given - taken);
-  counts.peak_live_bytes = std::max(std::int64_t(table.peak.load(kRelaxed)), counts.live_bytes);
+  counts.peak_live_bytes = std::int64_t(table.peak.load(kRelaxed));
+  return counts;
+}
+
+AllocationCounts countsOf(const Ended& ended) noexcept {
+  AllocationCounts counts;
+  counts.calls = ended.calls.load(kRelaxed);
+  counts.bytes = ended.bytes.load(kRelaxed);
+  counts.frees = ended.frees.load(kRelaxed);
+  counts.live_blocks = std::int64_t(counts.calls - counts.frees);
+  counts.live_bytes = std::int64_t(ended.given.load(kRelaxed) - ended.taken.load(kRelaxed));
+  counts.peak_live_bytes = std::int64_t(ended.peak.load(kRelaxed));
   return counts;
 }
 
 void add(AllocationCounts& sum, const AllocationCounts& more) noexcept {
-  sum.is_counted = true;
   sum.calls += more.calls;
   sum.bytes += more.bytes;
   sum.frees += more.frees;
@@ -75,28 +88,50 @@ void add(AllocationCounts& sum, const AllocationCounts& more) noexcept {
   sum.peak_live_bytes += more.peak_live_bytes;
 }
 
-std::size_t tableCount(const unsigned char* file) noexcept {
-  const FileHeader* const header = reinterpret_cast<const FileHeader*>(file);
-  return std::size_t(std::min<std::uint64_t>(header->next.load(), kTables));
+const FileHeader& headerOf(const unsigned char* file) noexcept {
+  return *reinterpret_cast<const FileHeader*>(file);
 }
 
 const Table& tableAt(const unsigned char* file, std::size_t index) noexcept {
   return *reinterpret_cast<const Table*>(file + (index + 1) * sizeof(Table));
 }
 
-// Whether a process is, or descends from, another, as far as the tables tell.
-bool descends(const unsigned char* file, std::size_t count, std::size_t index,
-              std::uint64_t from) noexcept {
-  for (std::size_t depth = 0; depth < kTables; ++depth) {
-    const Table& table = tableAt(file, index);
-    const std::uint64_t parent = table.parent.load(kRelaxed);
-    if (table.process.load(kRelaxed) == from || parent == from) return true;
-    std::size_t i = 0;
-    while (i < count && tableAt(file, i).process.load(kRelaxed) != parent) ++i;
-    if (i == count || i == index) return false;
-    index = i;
+// Whether a table is, or descends from, that of another; `root` is as Entry::parent.
+bool descends(const FileHeader& header, std::size_t index, std::uint64_t root) noexcept {
+  std::uint64_t at = index + 1;
+  for (std::size_t depth = 0; depth < kTables && at > 0 && at <= kTables; ++depth) {
+    if (at == root) return true;
+    at = header.entries[at - 1].parent.load(kRelaxed);
   }
-  return false;
+  return at == root;
+}
+
+// As the tables stand, while nobody changes which process has which.
+AllocationCounts sumOf(const unsigned char* file, std::uint64_t process,
+                       std::uint64_t own) noexcept {
+  const FileHeader& header = headerOf(file);
+  const std::size_t used = std::size_t(std::min<std::uint64_t>(header.used.load(), kTables));
+  std::uint64_t root = 0;
+  for (std::size_t i = 0; i < used; ++i) {
+    if (header.entries[i].process.load(kRelaxed) == process) root = i + 1;
+  }
+  AllocationCounts sum;
+  if (root == 0) {
+    if (process != own) return sum;
+    sum = allocationCounts();
+    if (header.maker.load(kRelaxed) != own) return sum;
+    root = kMaker;
+    add(sum, countsOf(header.ended));
+  } else {
+    sum.is_counted = true;
+  }
+  for (std::size_t i = 0; i < used; ++i) {
+    const bool is_any = header.entries[i].process.load(kRelaxed) != 0;
+    if (!is_any || !descends(header, i, root)) continue;
+    add(sum, countsOf(tableAt(file, i)));
+    add(sum, countsOf(tableAt(file, i).ended));
+  }
+  return sum;
 }
 
 // The file that this process inherited itself, in which its children are counted, too; null where
@@ -144,6 +179,7 @@ const unsigned char* makeSharedFile() {
     ::close(file);
     return nullptr;
   }
+  static_cast<FileHeader*>(mapped)->maker.store(std::uint64_t(::getpid()));
   static_cast<FileHeader*>(mapped)->magic.store(gslam_allocations::kMagic);
   return static_cast<const unsigned char*>(mapped);
 }
@@ -166,16 +202,18 @@ bool countAllocationsOfChildren() {
 AllocationCounts allocationCountsOf(long process) noexcept {
   const long own = long(::getpid());
   if (process == 0) process = own;
-  AllocationCounts sum;
-  if (process == own) sum = allocationCounts();
   const unsigned char* const file = shared_file.load();
-  if (file == nullptr || process < 0) return sum;
-  const std::size_t count = tableCount(file);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Table& table = tableAt(file, i);
-    const std::uint64_t number = table.process.load(kRelaxed);
-    if (number == 0 || number == std::uint64_t(own)) continue;
-    if (descends(file, count, i, std::uint64_t(process))) add(sum, countsOf(table));
+  if (file == nullptr) return process == own ? allocationCounts() : AllocationCounts();
+  if (process < 0) return {};
+  const FileHeader& header = headerOf(file);
+  AllocationCounts sum;
+  // One that died while it made a change is not waited for.
+  for (int i = 0; i < 100; ++i) {
+    const std::uint64_t before = header.changes.load();
+    sum = sumOf(file, std::uint64_t(process), std::uint64_t(own));
+    std::atomic_thread_fence(std::memory_order_acquire);
+    if (before % 2 == 0 && header.changes.load() == before) break;
+    ::sched_yield();
   }
   return sum;
 }

@@ -27,10 +27,12 @@ Svar describe(const Statistics& s) {
 void describeFrames(const Cost& cost, Svar& out) {
   out.set("frames", Svar::object({{"delivered", cost.delivered},
                                   {"results", cost.results},
-                                  {"dropped", cost.dropped}}));
+                                  {"dropped", cost.dropped},
+                                  {"overlapping", cost.overlapping}}));
   out.set("frame_ms", describe(cost.frame_ms));
   out.set("feed_ms", describe(cost.feed_ms));
   out.set("cpu_ms", describe(cost.cpu_ms));
+  out.set("cpu_ms_per_frame", cost.delivered > 0 ? Svar(cost.cpu_ms_per_frame) : Svar());
   out.set("frames_per_second", cost.frames_per_second > 0 ? Svar(cost.frames_per_second) : Svar());
 }
 
@@ -73,22 +75,20 @@ std::string whyNoAllocationsOf(const Cost& cost) {
 void describeAllocations(const Cost& cost, Svar& out) {
   const AllocationCounts& a = cost.source.allocations;
   const bool is_known = cost.has_allocations;
-  const auto value = [is_known](double number) { return is_known ? Svar(number) : Svar(); };
-  const bool is_any = is_known && cost.delivered > 0;
+  const bool is_any = is_known && cost.counted > 0;
   out.set("allocations_per_frame", is_any ? Svar(cost.allocations_per_frame) : Svar());
   out.set("allocated_bytes_per_frame", is_any ? Svar(cost.allocated_bytes_per_frame) : Svar());
   if (!is_known) {
     out.set("allocations", nullptr);
+    out.set("heap", nullptr);
     out.set("why_no_allocations", whyNoAllocationsOf(cost));
     return;
   }
   out.set("allocations",
-          Svar::object({{"calls", a.calls},
-                        {"bytes", a.bytes},
-                        {"frees", a.frees},
-                        {"live_blocks", a.live_blocks},
-                        {"live_mb", value(double(a.live_bytes) / kMegabyte)},
-                        {"peak_live_mb", value(double(a.peak_live_bytes) / kMegabyte)}}));
+          Svar::object({{"calls", a.calls}, {"bytes", a.bytes}, {"frees", a.frees}}));
+  out.set("heap", Svar::object({{"live_blocks", a.live_blocks},
+                                {"live_mb", double(a.live_bytes) / kMegabyte},
+                                {"peak_mb", double(a.peak_live_bytes) / kMegabyte}}));
 }
 
 void describeMachine(const ResourceReport& r, Svar& out) {
@@ -145,8 +145,12 @@ std::string framesText(const Cost& cost) {
   }
   out += line("each frame", format("%10s %10s %10s %10s %10s %9s", "median", "mean", "p95", "p99",
                                    "max", "frames"));
-  return out + row("  to the pose, ms", cost.frame_ms) + row("  in feed(), ms", cost.feed_ms) +
+  out += row("  to the pose, ms", cost.frame_ms) + row("  in feed(), ms", cost.feed_ms) +
          row("  CPU, ms", cost.cpu_ms);
+  if (cost.overlapping == 0) return out;
+  return out + line("  overlapping", format("%zu: what is used meanwhile is in the CPU of each; "
+                                            "counted once it is %.3f ms a frame",
+                                            cost.overlapping, cost.cpu_ms_per_frame));
 }
 
 std::string processesText(const ResourceReport& r) {
@@ -175,12 +179,14 @@ std::string processesText(const ResourceReport& r) {
 std::string allocationsText(const Cost& cost) {
   if (!cost.has_allocations) return because("allocations", whyNoAllocationsOf(cost));
   const AllocationCounts& a = cost.source.allocations;
-  std::string out = line(
-      "allocations", format("%llu of %.1f MB; %lld blocks of %.1f MB live, most %.1f MB",
-                            static_cast<unsigned long long>(a.calls), double(a.bytes) / kMegabyte,
-                            static_cast<long long>(a.live_blocks), double(a.live_bytes) / kMegabyte,
-                            double(a.peak_live_bytes) / kMegabyte));
-  if (cost.delivered == 0) return out;
+  std::string out =
+      line("allocations", format("%llu of %.1f MB", static_cast<unsigned long long>(a.calls),
+                                 double(a.bytes) / kMegabyte)) +
+      line("  since the start",
+           format("%lld blocks of %.1f MB live at the end, most %.1f MB",
+                  static_cast<long long>(a.live_blocks), double(a.live_bytes) / kMegabyte,
+                  double(a.peak_live_bytes) / kMegabyte));
+  if (cost.counted == 0) return out;
   return out + line("  each frame", format("%.1f of %.0f bytes", cost.allocations_per_frame,
                                            cost.allocated_bytes_per_frame));
 }
@@ -194,19 +200,44 @@ std::string machineText(const ResourceReport& r) {
           : because("energy", r.energy.why_not);
   out +=
       r.gpu.why_not.empty()
-          ? line("GPU", format("%.1f %%, most %.1f %%, memory most %.1f MB", r.gpu.mean_percent,
-                               r.gpu.highest_percent, double(r.gpu.peak_memory_bytes) / kMegabyte))
+          ? line("GPU", format("%.1f %%, most %.1f %%", r.gpu.mean_percent, r.gpu.highest_percent) +
+                            (r.gpu.has_memory ? format(", memory most %.1f MB",
+                                                       double(r.gpu.peak_memory_bytes) / kMegabyte)
+                                              : ""))
           : because("GPU", r.gpu.why_not);
   return out + line("sampling", format("%zu samples, %.2f %% of one core", r.samples_taken,
                                        r.overhead_percent));
 }
+
+// Parts of what only grows, such as CPU time: what several of them have in common counts once.
+class Spans {
+ public:
+  void add(double begin, double length) { spans_.emplace_back(begin, begin + length); }
+  // Of all together. @param overlapping  how many begin before one that began earlier has ended
+  double length(std::size_t* overlapping = nullptr) {
+    constexpr double kRounding = 1e-5;  // of a text with six digits
+    std::sort(spans_.begin(), spans_.end());
+    double sum = 0, end = 0;
+    for (std::size_t i = 0; i < spans_.size(); ++i) {
+      if (i == 0) end = spans_[0].first;
+      if (overlapping != nullptr && spans_[i].first < end - kRounding) ++*overlapping;
+      sum += std::max(0.0, spans_[i].second - std::max(end, spans_[i].first));
+      end = std::max(end, spans_[i].second);
+    }
+    return sum;
+  }
+
+ private:
+  std::vector<std::pair<double, double>> spans_;
+};
 
 }  // namespace
 
 Cost costOf(CostSource source) {
   Cost cost;
   std::vector<double> wall, feed, cpu;
-  double calls = 0, bytes = 0, begin = 0, end = 0;
+  Spans cpu_spans, calls, bytes;
+  double begin = 0, end = 0;
   for (const FrameTime& frame : source.frames) {
     cost.dropped += frame.is_dropped ? 1 : 0;
     if (frame.is_dropped) continue;
@@ -217,8 +248,11 @@ Cost costOf(CostSource source) {
     feed.push_back(frame.feed_ms);
     cpu.push_back(frame.cpu_ms);
     if (frame.has_result) wall.push_back(frame.wall_ms);
-    calls += double(frame.allocations);
-    bytes += double(frame.allocated_bytes);
+    cpu_spans.add(frame.cpu_ms_before, frame.cpu_ms);
+    if (!frame.has_allocations) continue;
+    ++cost.counted;
+    calls.add(double(frame.allocations_before), double(frame.allocations));
+    bytes.add(double(frame.allocated_bytes_before), double(frame.allocated_bytes));
   }
   cost.results = wall.size();
   cost.frame_ms = statisticsOf(std::move(wall));
@@ -227,9 +261,11 @@ Cost costOf(CostSource source) {
   cost.span_seconds = cost.delivered > 0 ? end - begin : 0;
   if (cost.span_seconds > 0) cost.frames_per_second = double(cost.delivered) / cost.span_seconds;
   cost.has_allocations = source.allocations.is_counted;
-  if (cost.has_allocations && cost.delivered > 0) {
-    cost.allocations_per_frame = calls / double(cost.delivered);
-    cost.allocated_bytes_per_frame = bytes / double(cost.delivered);
+  const double used_cpu = cpu_spans.length(&cost.overlapping);
+  if (cost.delivered > 0) cost.cpu_ms_per_frame = used_cpu / double(cost.delivered);
+  if (cost.has_allocations && cost.counted > 0) {
+    cost.allocations_per_frame = calls.length() / double(cost.counted);
+    cost.allocated_bytes_per_frame = bytes.length() / double(cost.counted);
   }
   cost.source = std::move(source);
   return cost;

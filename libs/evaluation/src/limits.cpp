@@ -11,11 +11,13 @@
 #if defined(__linux__)
 #include <fcntl.h>
 #include <sched.h>
+#include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <system_error>
 #endif
 
@@ -119,10 +121,16 @@ std::vector<int> listOf(const cpu_set_t& set) {
 void setForAllThreads(const cpu_set_t& set) {
   std::vector<long> threads, done;
   for (int round = 0; round < 100; ++round) {
-    detail::numbersIn("/proc/self/task", threads);
+    if (!detail::numbersIn("/proc/self/task", threads)) {
+      throw Error("cannot choose cores for all threads: /proc/self/task cannot be read");
+    }
     std::sort(threads.begin(), threads.end());
     if (threads == done) return;
-    for (const long thread : threads) ::sched_setaffinity(pid_t(thread), sizeof set, &set);
+    for (const long thread : threads) {
+      const bool is_set = ::sched_setaffinity(pid_t(thread), sizeof set, &set) == 0;
+      if (!is_set && errno != ESRCH)
+        fail("cannot choose cores for thread " + std::to_string(thread));
+    }
     done = threads;
   }
 }
@@ -209,7 +217,24 @@ struct GroupPlace {
   std::string mount;  // such as "/sys/fs/cgroup"
   std::string group;  // such as "/user.slice/app.scope"; "" is the root
   std::string why_not;
+
+  // The folder for new groups.
+  std::string parent() const { return mount + group.substr(0, group.rfind('/')); }
 };
+
+const std::string kGroupName = "gslam-";
+
+// Groups of processes that are gone, as of those that had too much memory. The system removes none
+// that somebody is in.
+void removeEndedGroups(const std::string& parent) {
+  for (const std::string& name : detail::namesIn(parent, kGroupName)) {
+    std::uint64_t process = 0;
+    std::size_t at = kGroupName.size();
+    if (!detail::takeNumber(name, at, process) || process == 0 || process > INT32_MAX) continue;
+    const bool is_gone = ::kill(pid_t(process), 0) != 0 && errno == ESRCH;
+    if (is_gone || pid_t(process) == ::getpid()) ::rmdir((parent + '/' + name).c_str());
+  }
+}
 
 GroupPlace findGroup(const std::string& proc) {
   GroupPlace place;
@@ -263,6 +288,7 @@ class MemoryLimit::Impl {
   }
 
   const std::string& text() const { return text_; }
+  const std::string& group() const { return group_; }
   bool isCgroup() const { return !group_.empty(); }
 
  private:
@@ -270,9 +296,12 @@ class MemoryLimit::Impl {
   // it. Returns why neither can be done.
   std::string makeGroup(const GroupPlace& place, std::uint64_t bytes) {
     home_ = place.mount + place.group;
-    const std::size_t slash = place.group.rfind('/');
-    const std::string parent =
-        place.group.empty() ? home_ : place.mount + place.group.substr(0, slash);
+    const std::string why_not = makeGroupIn(place.parent(), place.group.empty(), bytes);
+    if (!why_not.empty()) switchOff();
+    return why_not;
+  }
+
+  std::string makeGroupIn(const std::string& parent, bool may_switch_on, std::uint64_t bytes) {
     std::string text;
     const std::string control = parent + "/cgroup.subtree_control";
     const int problem = detail::readFile(control, text);
@@ -281,20 +310,28 @@ class MemoryLimit::Impl {
     }
     text = ' ' + text.substr(0, text.find('\n')) + ' ';
     if (text.find(" memory ") == std::string::npos) {
-      if (!place.group.empty() || !writeFile(control, "+memory")) {
+      if (!may_switch_on || !writeFile(control, "+memory")) {
         return control + " does not pass memory limits on to new groups";
       }
       switched_on_ = control;
     }
-    std::string group = parent + "/gslam-" + std::to_string(::getpid());
-    if (::mkdir(group.c_str(), 0755) != 0) {
-      return "a cgroup cannot be made in " + parent + ": " + std::generic_category().message(errno);
+    removeEndedGroups(parent);
+    // One may be there that belongs to another process which has this number in its container.
+    const std::string name = parent + '/' + kGroupName + std::to_string(::getpid());
+    std::string group = name;
+    int problem_of_group = EEXIST;
+    for (int i = 2; i < 100 && problem_of_group == EEXIST; ++i) {
+      problem_of_group = ::mkdir(group.c_str(), 0755) == 0 ? 0 : errno;
+      if (problem_of_group == EEXIST) group = name + '-' + std::to_string(i);
+    }
+    if (problem_of_group != 0) {
+      return "a cgroup cannot be made in " + parent + ": " +
+             std::generic_category().message(problem_of_group);
     }
     if (!writeFile(group + "/memory.max", std::to_string(bytes)) ||
         !writeFile(group + "/cgroup.procs", std::to_string(::getpid()))) {
       const int reason = errno;
       ::rmdir(group.c_str());
-      switchOff();
       return "a cgroup in " + parent +
              " cannot be used: " + std::generic_category().message(reason);
     }
@@ -313,9 +350,10 @@ class MemoryLimit::Impl {
   void limitProcess(std::uint64_t bytes, const std::string& why_not) {
     if (::getrlimit(RLIMIT_DATA, &before_) != 0) fail("the limit of memory is not known");
     rlimit limit = before_;
-    limit.rlim_cur = std::min(rlim_t(bytes), before_.rlim_max);
+    limit.rlim_cur = std::min(rlim_t(bytes), before_.rlim_cur);
     if (::setrlimit(RLIMIT_DATA, &limit) != 0) fail("cannot limit memory");
     text_ = "memory limited to " + gibibytes(limit.rlim_cur) +
+            (limit.rlim_cur < rlim_t(bytes) ? " (as it was before, which is less)" : "") +
             " for each process, of what is not shared, by RLIMIT_DATA, since no cgroup is used: " +
             why_not;
   }
@@ -336,6 +374,14 @@ const std::string& MemoryLimit::text() const noexcept {
 }
 bool MemoryLimit::isCgroup() const noexcept {
   return impl_->isCgroup();
+}
+const std::string& MemoryLimit::group() const noexcept {
+  return impl_->group();
+}
+
+void removeEndedMemoryGroups(const MemoryLimitOptions& options) {
+  const GroupPlace place = findGroup(options.proc);
+  if (place.why_not.empty()) removeEndedGroups(place.parent());
 }
 
 #else
@@ -362,6 +408,10 @@ const std::string& MemoryLimit::text() const noexcept {
 bool MemoryLimit::isCgroup() const noexcept {
   return false;
 }
+const std::string& MemoryLimit::group() const noexcept {
+  return impl_->text;
+}
+void removeEndedMemoryGroups(const MemoryLimitOptions&) {}
 
 #endif  // __linux__
 

@@ -52,12 +52,17 @@ void Rapl::open(const std::string& zone) {
   const int problem = readFile(path, text_);
   std::uint64_t begin = 0, range = 0;
   std::size_t at = 0;
+  const bool is_known = problem == 0 && takeNumber(text_, at, begin);
+  if (is_dram && !is_known) {
+    has_all_dram_ = false;  // that of packages is known all the same
+    return;
+  }
   if (problem != 0) {
     why_not_ = path + " cannot be read: " + std::generic_category().message(problem);
     if (problem == EACCES) why_not_ += " (most systems show it to root only)";
     return;
   }
-  if (!takeNumber(text_, at, begin)) {
+  if (!is_known) {
     why_not_ = path + " is no number";
     return;
   }
@@ -70,6 +75,8 @@ void Rapl::sample() {
     std::uint64_t now = 0;
     if (readNumber(zone.path, text_, now)) {
       zone.counter.add(now);
+    } else if (zone.is_dram) {
+      has_all_dram_ = false;
     } else if (why_not_.empty()) {
       why_not_ = zone.path + " could not be read any more";
     }
@@ -83,6 +90,10 @@ EnergyReport Rapl::report() const {
   for (const Zone& zone : zones_) {
     (zone.is_dram ? report.dram_joules : report.package_joules) += zone.counter.joules();
     report.has_dram = report.has_dram || zone.is_dram;
+  }
+  if (!has_all_dram_) {
+    report.has_dram = false;
+    report.dram_joules = 0;
   }
   return report;
 }
@@ -103,7 +114,8 @@ Gpus::Gpus(const std::string& sys, const std::string& nvml) {
   report_.gpus = devices_.size() + nvml_->read().size();
   if (report_.gpus > 0) return;
   report_.why_not = "no GPU in " + folder + " tells its load";
-  report_.why_not += nvml_->whyNot().empty() ? "" : "; " + nvml_->whyNot();
+  report_.why_not +=
+      "; " + (nvml_->whyNot().empty() ? "NVML tells the load of none" : nvml_->whyNot());
 }
 
 Gpus::~Gpus() = default;

@@ -64,6 +64,7 @@ class Rapl {
   void open(const std::string& zone);
 
   std::vector<Zone> zones_;
+  bool has_all_dram_ = true;  // of those that are there
   std::string why_not_;
   std::string text_;
 };

@@ -27,10 +27,13 @@ ProcessUsage usedBetween(const ProcessUsage& earlier, const ProcessUsage& later)
   used.cpu_seconds -= earlier.cpu_seconds;
   used.user_seconds -= earlier.user_seconds;
   used.system_seconds -= earlier.system_seconds;
-  used.voluntary_switches -= earlier.voluntary_switches;
-  used.involuntary_switches -= earlier.involuntary_switches;
-  used.minor_faults -= earlier.minor_faults;
-  used.major_faults -= earlier.major_faults;
+  const auto subtract = [](std::uint64_t& from, std::uint64_t number) {
+    from -= std::min(from, number);
+  };
+  subtract(used.voluntary_switches, earlier.voluntary_switches);
+  subtract(used.involuntary_switches, earlier.involuntary_switches);
+  subtract(used.minor_faults, earlier.minor_faults);
+  subtract(used.major_faults, earlier.major_faults);
   return used;
 }
 
@@ -77,6 +80,9 @@ struct Totals {
 struct Switches {
   std::uint64_t voluntary = 0, involuntary = 0;
 };
+struct ThreadSwitches : Switches {
+  long thread = 0;
+};
 
 // A process as it was read last.
 struct Process {
@@ -84,10 +90,10 @@ struct Process {
   bool lives = true;
   bool has_clock = false;
   clockid_t clock = 0;
-  Totals own;                        // of its threads
-  Totals reaped;                     // of children it was told of
-  std::uint64_t reaped_before = 0;   // ticks, at the reading before
-  std::map<long, Switches> threads;  // by number; only where switches are read for each
+  Totals own;                           // of its threads
+  Totals reaped;                        // of children it was told of
+  Totals reaped_before;                 // at the reading before
+  std::vector<ThreadSwitches> threads;  // ascending; only where switches are read for each
   Switches ended_threads;
   std::uint64_t rss = 0, anonymous = 0, pss = 0, peak = 0;  // bytes
 
@@ -96,6 +102,13 @@ struct Process {
     sum.add(reaped);
     return sum;
   }
+};
+
+// Of a process that lived at the last reading.
+struct Clock {
+  clockid_t id;
+  std::int64_t time;  // nanoseconds
+  bool is_over;
 };
 
 std::int64_t readClock(clockid_t clock) {
@@ -130,7 +143,7 @@ class ProcessTree::Impl {
     findDescendants();
     for (auto& entry : processes_) {
       Process& process = entry.second;
-      process.reaped_before = std::max(process.reaped_before, process.reaped.ticks());
+      process.reaped_before.raiseTo(process.reaped);
     }
     // Where one ended meanwhile, all are read again: then its parent has been told of it. And since
     // parents are read first, nobody is there whom a parent has been told of.
@@ -150,9 +163,12 @@ class ProcessTree::Impl {
   std::int64_t cpuTime() {
     const std::lock_guard<std::mutex> lock(clock_mutex_);
     std::int64_t sum = other_cpu_;
-    for (auto& clock : clocks_) {
-      clock.second = std::max(clock.second, readClock(clock.first));
-      sum += clock.second;
+    for (Clock& clock : clocks_) {
+      const std::int64_t time = clock.is_over ? -1 : readClock(clock.id);
+      // One that is gone or goes back is of a process that ended; the number may be another's now.
+      clock.is_over = time < clock.time;
+      clock.time = std::max(clock.time, time);
+      sum += clock.time;
     }
     last_cpu_ = std::max(last_cpu_, sum);
     return last_cpu_;
@@ -198,7 +214,9 @@ class ProcessTree::Impl {
     process.stat = stat;
     if (is_real_) process.has_clock = ::clock_getcpuclockid(pid_t(number), &process.clock) == 0;
     // What it was told of before it was seen is nothing that vanished under our eyes.
-    process.reaped_before = stat.reaped_user + stat.reaped_system;
+    process.reaped_before.user = stat.reaped_user;
+    process.reaped_before.system = stat.reaped_system;
+    process.reaped_before.minor_faults = stat.reaped_minor_faults;
   }
 
   bool readStat(long number, ProcStat& stat) {
@@ -225,12 +243,12 @@ class ProcessTree::Impl {
   }
 
   void takeChildren() {
-    std::vector<long> children;
+    children_.clear();
     std::size_t at = 0;
     std::uint64_t number = 0;
-    while (detail::takeNumber(text_, at, number)) children.push_back(long(number));
+    while (detail::takeNumber(text_, at, number)) children_.push_back(long(number));
     ProcStat stat;
-    for (const long child : children) {
+    for (const long child : children_) {
       if (processes_.count(child) != 0 || !readStat(child, stat)) continue;
       add(child, stat);
       open_.push_back(child);
@@ -311,26 +329,30 @@ class ProcessTree::Impl {
       }
     }
     if (!detail::numbersIn(pathOf(number, "/task"), threads_)) return;
-    std::map<long, Switches> read;
+    std::sort(threads_.begin(), threads_.end());
+    switches_.clear();
+    Totals total;
     for (const long thread : threads_) {
       if (detail::readFile(pathOf(number, thread, "/status"), text_) != 0) continue;
-      Switches& one = read[thread];
+      ThreadSwitches one;
+      one.thread = thread;
       one.voluntary = detail::numberOf(text_, "voluntary_ctxt_switches");
       one.involuntary = detail::numberOf(text_, "nonvoluntary_ctxt_switches");
+      total.voluntary += one.voluntary;
+      total.involuntary += one.involuntary;
+      switches_.push_back(one);
     }
-    for (const auto& before : process.threads) {
-      if (read.count(before.first) != 0) continue;
-      process.ended_threads.voluntary += before.second.voluntary;
-      process.ended_threads.involuntary += before.second.involuntary;
+    for (const ThreadSwitches& before : process.threads) {
+      const auto is_less = [](const ThreadSwitches& a, const ThreadSwitches& b) {
+        return a.thread < b.thread;
+      };
+      if (std::binary_search(switches_.begin(), switches_.end(), before, is_less)) continue;
+      process.ended_threads.voluntary += before.voluntary;
+      process.ended_threads.involuntary += before.involuntary;
     }
-    Totals total;
-    total.voluntary = process.ended_threads.voluntary;
-    total.involuntary = process.ended_threads.involuntary;
-    for (const auto& one : read) {
-      total.voluntary += one.second.voluntary;
-      total.involuntary += one.second.involuntary;
-    }
-    process.threads = std::move(read);
+    total.voluntary += process.ended_threads.voluntary;
+    total.involuntary += process.ended_threads.involuntary;
+    process.threads.assign(switches_.begin(), switches_.end());
     process.own.raiseTo(total);
   }
 
@@ -351,12 +373,19 @@ class ProcessTree::Impl {
     for (const long number : ended) processes_.erase(number);
     for (const auto& entry : untold) {
       const auto parent = processes_.find(entry.first);
-      const bool is_told =
-          parent != processes_.end() &&
-          // Ticks of user and system are each rounded down.
-          parent->second.reaped.ticks() + 2 >= parent->second.reaped_before + entry.second.ticks();
-      if (!is_told) gone_.add(entry.second);
+      if (parent == processes_.end() || !isTold(parent->second, entry.second)) {
+        gone_.add(entry.second);
+      }
     }
+  }
+
+  // Whether a parent was told of this since the reading before. Faults are exact, and no process
+  // has none; ticks of user and system are each rounded down, so that they show little of a short
+  // life.
+  static bool isTold(const Process& parent, const Totals& ended) {
+    const Totals& before = parent.reaped_before;
+    return parent.reaped.minor_faults >= before.minor_faults + ended.minor_faults &&
+           parent.reaped.ticks() + 2 >= before.ticks() + ended.ticks();
   }
 
   // Where a parent ended, too, it told its own.
@@ -378,7 +407,7 @@ class ProcessTree::Impl {
     for (const auto& entry : processes_) {
       const Process& process = entry.second;
       totals.add(process.all());
-      if (process.has_clock) clocks_read_.emplace_back(process.clock, process.own.cpu);
+      if (process.has_clock) clocks_read_.push_back({process.clock, process.own.cpu, false});
       other_cpu += process.reaped.cpu + (process.has_clock ? 0 : process.own.cpu);
       peak_of_one_ = std::max(peak_of_one_, process.peak);
       if (!process.lives) continue;
@@ -411,8 +440,9 @@ class ProcessTree::Impl {
   std::int64_t tick_ = 10000000;  // nanoseconds
   std::mutex mutex_;
   std::string text_, path_;  // of the file in work
-  std::vector<long> order_, open_, threads_;
-  std::vector<std::pair<clockid_t, std::int64_t>> clocks_read_;
+  std::vector<long> order_, open_, threads_, children_;
+  std::vector<ThreadSwitches> switches_;
+  std::vector<Clock> clocks_read_;
   std::map<long, Process> processes_;
   std::int64_t next_scan_ = 0;
   Totals gone_;
@@ -421,7 +451,7 @@ class ProcessTree::Impl {
 
   // What a frame needs, so that it never waits for a whole reading.
   std::mutex clock_mutex_;
-  std::vector<std::pair<clockid_t, std::int64_t>> clocks_;
+  std::vector<Clock> clocks_;
   std::int64_t other_cpu_ = 0;
   std::int64_t last_cpu_ = 0;
 };

@@ -53,9 +53,9 @@ class ResourceMonitor::Impl {
   Impl(std::shared_ptr<ProcessTree> tree, const MonitorOptions& options)
       : tree_(std::move(tree)),
         options_(options),
-        rapl_(options.sys),
         gpus_(options.sys, options.nvml),
         cores_(options.proc),
+        rapl_(options.sys),
         begin_(tree_->read()),
         last_(begin_) {
     // Only the thread's own work is left from here on.
@@ -94,13 +94,14 @@ class ResourceMonitor::Impl {
 
   void work() {
     std::unique_lock<std::mutex> lock(mutex_);
-    Seconds pause = options_.period;
+    constexpr Seconds kMost = std::chrono::hours(24);  // time + pause must not overflow
+    Seconds pause = std::min<Seconds>(options_.period, kMost);
     while (!changed_.wait_for(lock, pause, [this] { return is_ending_; })) {
       const double before = cpu_seconds_;
       sample();
       // Each sample pays for itself by the pause behind it.
       const Seconds earned((cpu_seconds_ - before) / options_.most_overhead);
-      pause = std::max<Seconds>(options_.period, earned);
+      pause = std::min(std::max<Seconds>(options_.period, earned), kMost);
     }
   }
 
@@ -116,7 +117,7 @@ class ResourceMonitor::Impl {
     if (seconds > 0) {
       sample.cpu_percent = 100 * (usage.cpu_seconds - last_.cpu_seconds) / seconds;
     }
-    // Clocks of other processes and ticks are too coarse for a moment.
+    // Of children that ended the system tells ticks, which are too coarse for a moment.
     if (seconds >= 0.5 * Seconds(options_.period).count()) {
       result_.peak_cpu_percent = std::max(result_.peak_cpu_percent, sample.cpu_percent);
     }
@@ -182,9 +183,9 @@ class ResourceMonitor::Impl {
   std::condition_variable changed_;
   bool is_ending_ = false;
   bool is_ended_ = false;
-  detail::Rapl rapl_;
-  detail::Gpus gpus_;
+  detail::Gpus gpus_;  // first, since to start NVML may take a second
   detail::CoreLoads cores_;
+  detail::Rapl rapl_;
   const ProcessUsage begin_;
   ProcessUsage last_;
   ResourceReport result_;

@@ -23,8 +23,12 @@ std::vector<FrameTime> hundredFrames() {
     f.wall_ms = f.has_result ? i : 0;
     f.feed_ms = 2;
     f.cpu_ms = 0.5 * i;
+    f.cpu_ms_before = 1000.0 * i;  // others use more
+    f.has_allocations = true;
     f.allocations = std::uint64_t(i);
     f.allocated_bytes = 10 * std::uint64_t(i);
+    f.allocations_before = 2000 * std::uint64_t(i);
+    f.allocated_bytes_before = 2000 * std::uint64_t(i);
     frames.push_back(f);
   }
   FrameTime dropped;
@@ -49,6 +53,7 @@ CostSource source() {
   source.resources.overhead_percent = 0.25;
   source.allocations.is_counted = true;
   source.allocations.calls = 5050;
+  source.allocations.peak_live_bytes = 77000000;
   return source;
 }
 
@@ -64,9 +69,36 @@ TEST(Cost, sumsUpFrames) {
   EXPECT_NEAR(cost.feed_ms.std, 0, 1e-9);
   EXPECT_NEAR(cost.allocations_per_frame, 50.5, 1e-9);
   EXPECT_NEAR(cost.allocated_bytes_per_frame, 505, 1e-9);
+  EXPECT_NEAR(cost.cpu_ms_per_frame, 0.5 * 50.5, 1e-9);
+  EXPECT_EQ(cost.overlapping, 0u);
   // From 0.01 s to the pose of frame 99, 0.99 + 0.099 s; a dropped frame has no time.
   EXPECT_NEAR(cost.span_seconds, 1.089 - 0.01, 1e-9);
   EXPECT_NEAR(cost.frames_per_second, 100 / 1.079, 1e-9);
+}
+
+// Two frames overlap with a third; a fourth is alone. What belongs to several counts once.
+TEST(Cost, countsWhatFramesShareOnce) {
+  const double spans[][2] = {{100, 50}, {120, 10}, {140, 40}, {500, 5}};
+  CostSource made;
+  made.allocations.is_counted = true;
+  for (const auto& span : spans) {
+    FrameTime f;
+    f.has_allocations = true;
+    f.cpu_ms_before = span[0];
+    f.cpu_ms = span[1];
+    f.allocations_before = std::uint64_t(span[0]);
+    f.allocations = std::uint64_t(span[1]);
+    f.allocated_bytes_before = 10 * f.allocations_before;
+    f.allocated_bytes = 10 * f.allocations;
+    made.frames.insert(made.frames.begin(), f);  // in any order
+  }
+  const Cost cost = gslam::costOf(made);
+  EXPECT_NEAR(cost.cpu_ms_per_frame, 85.0 / 4, 1e-9);
+  EXPECT_NEAR(cost.allocations_per_frame, 85.0 / 4, 1e-9);
+  EXPECT_NEAR(cost.allocated_bytes_per_frame, 850.0 / 4, 1e-9);
+  EXPECT_EQ(cost.overlapping, 2u);
+  EXPECT_EQ(gslam::costToSvar(cost)["frames"]["overlapping"].as<int>(), 2);
+  EXPECT_NE(gslam::costText(cost).find("21.250 ms a frame"), std::string::npos);
 }
 
 TEST(Cost, becomesJson) {
@@ -80,6 +112,9 @@ TEST(Cost, becomesJson) {
   EXPECT_NEAR(json["cpu_percent"].as<double>(), 150, 1e-9);
   EXPECT_NEAR(json["allocations_per_frame"].as<double>(), 50.5, 1e-9);
   EXPECT_EQ(json["allocations"]["calls"].as<int>(), 5050);
+  EXPECT_FALSE(json["allocations"].contains("live_mb"));  // which is not of the run
+  EXPECT_NEAR(json["heap"]["peak_mb"].as<double>(), 77, 1e-9);
+  EXPECT_NEAR(json["cpu_ms_per_frame"].as<double>(), 25.25, 1e-9);
   EXPECT_EQ(json["core_percent"].size(), 2u);
   EXPECT_EQ(json["voluntary_switches"].as<int>(), 11);
   EXPECT_EQ(json["major_faults"].as<int>(), 4);
@@ -99,8 +134,9 @@ TEST(Cost, saysWhatIsNotKnown) {
   const Cost cost = gslam::costOf(nothing);
   const Svar json = gslam::parseJson(gslam::printJson(gslam::costToSvar(cost)));
   EXPECT_EQ(json["measured"].as<std::string>(), "slam");
-  for (const char* name : {"frames_per_second", "peak_rss_mb", "cpu_percent", "energy", "gpu",
-                           "allocations", "allocations_per_frame", "core_percent", "sampling"}) {
+  for (const char* name :
+       {"frames_per_second", "peak_rss_mb", "cpu_percent", "energy", "gpu", "allocations", "heap",
+        "cpu_ms_per_frame", "allocations_per_frame", "core_percent", "sampling"}) {
     EXPECT_TRUE(json.contains(name)) << name;
     EXPECT_TRUE(json[name].isNull()) << name;
   }
@@ -125,6 +161,10 @@ TEST(Cost, becomesAText) {
     EXPECT_NE(text.find(part), std::string::npos) << part << '\n' << text;
   }
   EXPECT_NE(text.find(made.resources.gpu.why_not), std::string::npos);
+  made.resources.gpu.why_not = "";
+  EXPECT_EQ(gslam::costText(gslam::costOf(made)).find("memory most"), std::string::npos);
+  made.resources.gpu.has_memory = true;
+  EXPECT_NE(gslam::costText(gslam::costOf(made)).find("memory most 0.0 MB"), std::string::npos);
   EXPECT_EQ(text.back(), '\n');
 }
 

@@ -1,7 +1,9 @@
 #include <gslam/base/error.h>
 #include <gslam/core/isolated_slam.h>
+#include <gslam/core/player.h>
 #include <gslam/core/slam_thread.h>
 #include <gslam/evaluation/allocation_counts.h>
+#include <gslam/evaluation/cost.h>
 #include <gslam/evaluation/frame_times.h>
 #include <gtest/gtest.h>
 
@@ -265,6 +267,133 @@ TEST(MeasuredSlam, worksInAndAroundASlamThread) {
   EXPECT_LT(inner->frames()[2].wall_ms, 250);
 }
 
+class Steps : public gslam::Dataset {
+ public:
+  const gslam::DatasetInfo& info() const override { return info_; }
+  std::shared_ptr<const Frame> next() override {
+    if (next_ == 40) return nullptr;
+    const auto made = std::make_shared<Frame>();
+    made->id = next_;
+    made->stamp = std::int64_t(next_++) * 10000000;
+    return made;
+  }
+  void seek(std::size_t index) override { next_ = index; }
+
+ private:
+  gslam::DatasetInfo info_;
+  std::uint64_t next_ = 0;
+};
+
+// In real time the player drops frames and lets them wait outside.
+TEST(MeasuredSlam, knowsWhatThePlayerDropsInRealTime) {
+  Steps dataset;
+  const gslam::Messenger messenger;
+  MeasuredSlam slam(
+      std::make_shared<ToldSlam>([](const Frame& fed, const gslam::Publisher<TrackedPose>& pose) {
+        wait(25);
+        pose.publish(poseOf(fed.id));
+      }));
+  slam.configure({});
+  const gslam::Subscriber played = messenger.subscribe<Frame>(
+      "/sensor/frame", [&slam](const Frame& given) { slam.noteDelivered(given.id, given.stamp); });
+  gslam::Player player(dataset, messenger);
+  gslam::PlayOptions options;
+  options.pace = gslam::Pace::real_time;
+  const gslam::PlayReport report = player.play(slam, options);
+  slam.finish();
+  gslam::CostSource source;
+  source.frames = slam.frames();
+  const gslam::Cost cost = gslam::costOf(source);
+  EXPECT_EQ(report.played, 40u);
+  EXPECT_GT(report.dropped, 10u);
+  EXPECT_EQ(cost.dropped, report.dropped);
+  EXPECT_EQ(cost.delivered, report.played - report.dropped);
+  // Each but the first waits for the one before it: for about 5 of 25 ms, or more on a busy
+  // machine.
+  EXPECT_GT(cost.frame_ms.mean, cost.feed_ms.mean + 2);
+  std::uint64_t next = 0;
+  for (const FrameTime& f : source.frames) EXPECT_EQ(f.frame, next++);
+}
+
+TEST(MeasuredSlam, dropsWhatIsOvertakenOrNeverComes) {
+  MeasuredSlam slam(std::make_shared<ToldSlam>(publish));
+  slam.configure({});
+  slam.noteDelivered(1, 10);
+  slam.noteDelivered(2, 20);
+  wait(30);
+  slam.feed(frame(5));  // of which nobody told: it overtakes none
+  slam.feed(frame(2));
+  slam.noteDelivered(7, 70);
+  slam.dropWaiting();
+  slam.noteDelivered(8, 80);
+  slam.finish();
+  const std::vector<FrameTime> frames = slam.frames();
+  ASSERT_EQ(frames.size(), 5u);
+  const std::uint64_t ids[] = {5, 1, 2, 7, 8};
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(frames[i].frame, ids[i]);
+    EXPECT_EQ(frames[i].is_dropped, ids[i] != 5 && ids[i] != 2);
+  }
+  EXPECT_EQ(frames[4].stamp, 80);
+  EXPECT_LT(frames[0].wall_ms, 25);
+  EXPECT_GE(frames[2].wall_ms, 30);  // since it was delivered
+  EXPECT_LE(frames[2].feed_ms, frames[2].wall_ms - 25);
+  EXPECT_LT(frames[1].delivered, frames[0].delivered);
+}
+
+// A queue inside: each piece of work is in the figures of all frames that wait, and once in the
+// figure for each frame.
+TEST(MeasuredSlam, countsOverlappingFramesOnce) {
+  constexpr std::size_t kFrames = 20;
+  MeasuredSlam slam(std::make_shared<gslam::SlamThread>(
+      std::make_shared<ToldSlam>([](const Frame& fed, const gslam::Publisher<TrackedPose>& pose) {
+        burn(0.005);
+        pose.publish(poseOf(fed.id));
+      }),
+      std::size_t(8)));
+  slam.configure({});
+  for (std::uint64_t id = 0; id < kFrames; ++id) slam.feed(frame(id));
+  slam.finish();
+  gslam::CostSource source;
+  source.frames = slam.frames();
+  const gslam::Cost cost = gslam::costOf(source);
+  EXPECT_GT(cost.cpu_ms.mean, 15);
+  EXPECT_GE(cost.cpu_ms_per_frame, 5);
+  EXPECT_LT(cost.cpu_ms_per_frame, 7);
+  EXPECT_GE(cost.overlapping, kFrames - 3);
+}
+
+// What is told last of a frame is how it is: once its pose was missing there, when it came as
+// feed() returned.
+TEST(MeasuredSlam, tellsOfEachFrameInOrder) {
+  constexpr std::uint64_t kFrames = 20000;
+  const auto inside =
+      std::make_shared<ToldSlam>([](const Frame&, const gslam::Publisher<TrackedPose>&) {});
+  std::vector<char> has_result(kFrames, 0);
+  gslam::MeasureOptions options;
+  options.on_frame = [&](const FrameTime& told) { has_result[told.frame] = told.has_result; };
+  MeasuredSlam slam(inside, options);
+  slam.configure({});
+  std::atomic<std::uint64_t> fed(0);
+  std::thread worker([&] {
+    for (std::uint64_t id = 0; id < kFrames; ++id) {
+      while (fed <= id) {
+      }
+      for (volatile std::uint64_t i = 0; i < id * 37 % 1000; i = i + 1) {
+      }
+      inside->pose_.publish(poseOf(id));
+    }
+  });
+  for (std::uint64_t id = 0; id < kFrames; ++id) {
+    fed = id + 1;
+    slam.feed(frame(id));
+  }
+  worker.join();
+  for (const FrameTime& f : slam.frames()) {
+    ASSERT_EQ(f.has_result, has_result[f.frame] != 0) << f.frame;
+  }
+}
+
 TEST(MeasuredSlam, mayGoBeforeItsMessenger) {
   gslam::SlamSetup setup;
   const auto inside = std::make_shared<ToldSlam>(publish);
@@ -305,6 +434,7 @@ TEST(MeasuredSlam, measuresAnIsolatedOneAlone) {
     EXPECT_GE(f.wall_ms, 30);
     EXPECT_GE(f.cpu_ms, 30);
     EXPECT_LE(f.cpu_ms, 45);
+    EXPECT_EQ(f.has_allocations, spender::canCount());
     if (!spender::canCount()) continue;
     EXPECT_GE(f.allocations, 5000u);
     EXPECT_LE(f.allocations, 5200u);
@@ -323,6 +453,10 @@ TEST(FrameTimesCsv, writesWhatThereIs) {
   done.cpu_ms = 0.000001;
   done.allocations = 3;
   done.allocated_bytes = 400;
+  done.has_allocations = true;
+  done.cpu_ms_before = 2.5;
+  done.allocations_before = 11;
+  done.allocated_bytes_before = 12;
   done.state = TrackingState::tracking;
   done.corrections = 2;
   dropped.frame = 8;
@@ -331,10 +465,11 @@ TEST(FrameTimesCsv, writesWhatThereIs) {
   lost.feed_ms = 2;
   EXPECT_EQ(gslam::frameTimesCsv({done, dropped, lost}),
             "frame,stamp_ns,delivered_ns,dropped,wall_ms,feed_ms,cpu_ms,allocations,"
-            "allocated_bytes,state,corrections\n"
-            "7,-5,1000,0,1.500000,1234.000002,0.000001,3,400,tracking,2\n"
-            "8,0,0,1,,,,,,,\n"
-            "9,0,0,0,,2.000000,0.000000,0,0,,0\n");
+            "allocated_bytes,state,corrections,cpu_ms_before,allocations_before,"
+            "allocated_bytes_before\n"
+            "7,-5,1000,0,1.500000,1234.000002,0.000001,3,400,tracking,2,2.500000,11,12\n"
+            "8,0,0,1,,,,,,,,,,\n"
+            "9,0,0,0,,2.000000,0.000000,,,,0,0.000000,,\n");
   EXPECT_EQ(gslam::frameTimesCsv({}).find('\n') + 1, gslam::frameTimesCsv({}).size());
 }
 

@@ -192,6 +192,80 @@ TEST(MemoryLimit, makesAGroupBelowTheRoot) {
   EXPECT_EQ(files.read("groups/cgroup.subtree_control").substr(0, 7), "-memory");
 }
 
+// A number that no process has.
+std::string goneProcess() {
+  const pid_t child = fork();
+  if (child == 0) _exit(0);
+  waitpid(child, nullptr, 0);
+  return std::to_string(child);
+}
+
+// Those who had too much memory cannot remove theirs, and may have had our number.
+TEST(MemoryLimit, removesGroupsOfTheDead) {
+  const FakeGroups files("/user/app.scope");
+  files.write("groups/user/cgroup.subtree_control", "memory\n");
+  const std::string own = "groups/user/gslam-" + std::to_string(getpid());
+  const std::string gone = "groups/user/gslam-" + goneProcess();
+  const std::string living = "groups/user/gslam-" + std::to_string(getppid());
+  const auto isThere = [&](const std::string& path) {
+    return std::filesystem::exists(files.root() + '/' + path);
+  };
+  for (const std::string& left : {own, gone, gone + "-2", living}) {
+    std::filesystem::create_directories(files.root() + '/' + left);
+  }
+  files.write("groups/user/gslam-other/x", "");
+  {
+    const MemoryLimit limit(1000000000, files.options());
+    EXPECT_EQ(limit.group(), files.root() + '/' + own);
+    EXPECT_FALSE(isThere(gone));
+    EXPECT_FALSE(isThere(gone + "-2"));
+    EXPECT_TRUE(isThere(living));
+    EXPECT_TRUE(isThere("groups/user/gslam-other"));
+    // A second finds the first one's, which somebody is in.
+    const MemoryLimit second(900000000, files.options());
+    EXPECT_EQ(second.group(), files.root() + '/' + own + "-2");
+    EXPECT_EQ(files.read(own + "-2/memory.max"), "900000000");
+  }
+  std::filesystem::create_directories(files.root() + '/' + gone);
+  gslam::removeEndedMemoryGroups(files.options());
+  EXPECT_FALSE(isThere(gone));
+  EXPECT_TRUE(isThere(living));
+}
+
+TEST(MemoryLimit, neverRaisesALimit) {
+  if (!spender::canCount()) GTEST_SKIP() << "sanitizers need more memory than there would be";
+  rlimit before = {};
+  getrlimit(RLIMIT_DATA, &before);
+  rlimit soft = before;
+  soft.rlim_cur = 2000000000;
+  setrlimit(RLIMIT_DATA, &soft);
+  MemoryLimitOptions options;
+  options.may_use_cgroup = false;
+  {
+    const MemoryLimit limit(4000000000, options);
+    EXPECT_EQ(dataLimit(), 2000000000u);
+    EXPECT_NE(limit.text().find("1.86 GiB"), std::string::npos) << limit.text();
+    EXPECT_NE(limit.text().find("before"), std::string::npos) << limit.text();
+    EXPECT_EQ(limit.group(), "");
+  }
+  EXPECT_EQ(dataLimit(), 2000000000u);
+  setrlimit(RLIMIT_DATA, &before);
+}
+
+// What was switched on for a group that could not be made is off again.
+TEST(MemoryLimit, leavesNothingBehindWhereItFails) {
+  if (!spender::canCount()) GTEST_SKIP() << "sanitizers need more memory than there would be";
+  const FakeGroups files("/");
+  files.write("groups/cgroup.subtree_control", "cpu\n");
+  for (int i = 1; i < 100; ++i) {
+    files.write("groups/gslam-" + std::to_string(getpid()) + (i > 1 ? '-' + std::to_string(i) : ""),
+                "a file in the way");
+  }
+  const MemoryLimit limit(8000000000, files.options());
+  EXPECT_FALSE(limit.isCgroup());
+  EXPECT_EQ(files.read("groups/cgroup.subtree_control").substr(0, 7), "-memory");
+}
+
 TEST(MemoryLimit, saysWhyThereIsNoGroup) {
   if (!spender::canCount()) GTEST_SKIP() << "sanitizers need more memory than there would be";
   const rlim_t before = dataLimit();
@@ -207,7 +281,14 @@ TEST(MemoryLimit, saysWhyThereIsNoGroup) {
     files.write("groups/a/cgroup.subtree_control", "cpu memoryless\n");
     EXPECT_NE(reasonOf(files).find("does not pass memory"), std::string::npos);
     files.write("groups/a/cgroup.subtree_control", "memory\n");
-    files.write("groups/a/gslam-" + std::to_string(getpid()), "a file in the way");
+    std::filesystem::remove_all(files.root() + "/groups/a");
+    files.write("groups/a", "a file in the way");
+    EXPECT_NE(reasonOf(files).find("cannot be read"), std::string::npos);
+    std::filesystem::remove_all(files.root() + "/groups/a");
+    files.write("groups/a/cgroup.subtree_control", "memory\n");
+    const std::string group = "groups/a/gslam-" + std::to_string(getpid());
+    files.write(group, "a file in the way");
+    for (int i = 2; i < 100; ++i) files.write(group + '-' + std::to_string(i), "");
     EXPECT_NE(reasonOf(files).find("cannot be made"), std::string::npos);
   }
   {

@@ -1,9 +1,13 @@
 #include <gslam/base/error.h>
 #include <gslam/evaluation/process_usage.h>
 #include <gtest/gtest.h>
+#include <linux/sched.h>
+#include <sys/syscall.h>
+#include <time.h>
 
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <thread>
 
 #include "fake_files.h"
@@ -160,22 +164,25 @@ TEST(ProcessUsage, keepsWhatAnEndedChildUsed) {
   EXPECT_NEAR(tree.read().cpu_seconds, 1.5, 1e-9);
 }
 
+// Also of a short life, whose ticks could be rounding.
 TEST(ProcessUsage, keepsWhatNobodyWasToldOf) {
-  FakeProc proc;
-  FakeProcess root, child;
-  root.children = "101 ";
-  child.number = 101;
-  child.parent = 100;
-  child.user = 40;
-  child.minor = 9;
-  proc.put(root);
-  proc.put(child);
-  ProcessTree tree(proc.options());
-  proc.remove("101");
-  for (int i = 0; i < 3; ++i) {
-    const ProcessUsage usage = tree.read();
-    EXPECT_NEAR(usage.cpu_seconds, 0.4, 1e-9);
-    EXPECT_EQ(usage.minor_faults, 9u);
+  for (const int ticks : {0, 1, 2, 40}) {
+    FakeProc proc;
+    FakeProcess root, child;
+    root.children = "101 ";
+    child.number = 101;
+    child.parent = 100;
+    child.user = ticks;
+    child.minor = 9;
+    proc.put(root);
+    proc.put(child);
+    ProcessTree tree(proc.options());
+    proc.remove("101");
+    for (int i = 0; i < 3; ++i) {
+      const ProcessUsage usage = tree.read();
+      EXPECT_NEAR(usage.cpu_seconds, 0.01 * ticks, 1e-9);
+      EXPECT_EQ(usage.minor_faults, 9u);
+    }
   }
 }
 
@@ -357,6 +364,119 @@ TEST(ProcessUsage, countsShortLivedChildrenOnce) {
     EXPECT_LE(used.cpu_seconds, 0.55) << how;
     EXPECT_EQ(used.processes, 1u);
   }
+}
+
+// Of children of 15 ms, too, each of which could be rounding.
+TEST(ProcessUsage, countsManyShortLivesThatNobodyIsToldOf) {
+  spender::Child child({"ignored", "40", "0.015"});
+  ProcessTree tree(treeOf(child.number()));
+  const ProcessUsage before = tree.read();
+  std::atomic<bool> is_done(false);
+  std::thread reader([&] {
+    while (!is_done) {
+      tree.read();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  });
+  child.go();
+  EXPECT_EQ(child.line(), "done");
+  is_done = true;
+  reader.join();
+  const ProcessUsage used = gslam::usedBetween(before, tree.read());
+  EXPECT_GE(used.cpu_seconds, 0.25);
+  EXPECT_LE(used.cpu_seconds, 0.75);
+}
+
+void burn(double seconds) {
+  timespec time = {};
+  const auto used = [&time] {
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+  };
+  const double end = used() + seconds;
+  while (used() < end) {
+  }
+}
+
+// As fork(), with a number that is free; -1 where that is not allowed.
+pid_t forkAs(pid_t number) {
+  clone_args how = {};
+  how.exit_signal = SIGCHLD;
+  how.set_tid = reinterpret_cast<std::uintptr_t>(&number);
+  how.set_tid_size = 1;
+  return pid_t(syscall(SYS_clone3, &how, sizeof how));
+}
+
+// A process of this one with a child that burns 50 ms, and ends and is waited for when it is told.
+class ParentOfOne {
+ public:
+  ParentOfOne() {
+    int in[2], out[2];
+    if (pipe(in) != 0 || pipe(out) != 0) ADD_FAILURE() << "no pipe";
+    number_ = fork();
+    if (number_ == 0) {
+      const pid_t child = fork();
+      if (child == 0) {
+        burn(0.05);
+        pause();
+        _exit(0);
+      }
+      char byte = 0;
+      if (write(out[1], &child, sizeof child) < 0 || read(in[0], &byte, 1) < 0) _exit(1);
+      kill(child, SIGKILL);
+      waitpid(child, nullptr, 0);
+      if (write(out[1], &byte, 1) < 0) _exit(1);
+      pause();
+      _exit(0);
+    }
+    close(in[0]);
+    close(out[1]);
+    in_ = in[1];
+    out_ = out[0];
+    EXPECT_EQ(read(out_, &child_, sizeof child_), ssize_t(sizeof child_));
+  }
+  ParentOfOne(const ParentOfOne&) = delete;
+  ParentOfOne& operator=(const ParentOfOne&) = delete;
+  ~ParentOfOne() {
+    kill(number_, SIGKILL);
+    waitpid(number_, nullptr, 0);
+    close(in_);
+    close(out_);
+  }
+  void endChild() const {
+    char byte = 0;
+    EXPECT_EQ(write(in_, &byte, 1), 1);
+    EXPECT_EQ(read(out_, &byte, 1), 1);
+  }
+  pid_t number() const { return number_; }
+  pid_t child() const { return child_; }
+
+ private:
+  pid_t number_ = -1, child_ = -1;
+  int in_ = -1, out_ = -1;
+};
+
+// A stranger that gets the number of a child that ended is not followed.
+TEST(ProcessUsage, followsNoStrangerOfTheSameNumber) {
+  const ParentOfOne parent;
+  ProcessTree tree(treeOf(parent.number()));
+  const auto begin = std::chrono::steady_clock::now();
+  while (tree.cpuTime() < 50000000 && spender::secondsSince(begin) < 5) usleep(1000);
+  parent.endChild();
+  const pid_t stranger = forkAs(parent.child());
+  if (stranger == 0) {
+    usleep(100000);
+    burn(0.3);
+    pause();
+    _exit(0);
+  }
+  if (stranger < 0) GTEST_SKIP() << "this user may not choose the number of a process";
+  const std::int64_t before = tree.cpuTime();
+  usleep(700000);
+  EXPECT_LT(tree.cpuTime() - before, 20000000);
+  EXPECT_LT(tree.read().cpu_seconds, 0.1);
+  kill(stranger, SIGKILL);
+  waitpid(stranger, nullptr, 0);
 }
 
 TEST(ProcessUsage, keepsOrphans) {

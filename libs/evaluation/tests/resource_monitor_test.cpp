@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 #include <time.h>
 
+#include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <thread>
+#include <utility>
 
 #include "fake_files.h"
 #include "spender_child.h"
@@ -138,6 +141,21 @@ TEST(ResourceMonitor, keepsItsOverhead) {
   EXPECT_LE(used, 0.015 + report.monitor_cpu_seconds);
 }
 
+// "Never" is a period, too: once the end of the wait was out of range, and a core was busy.
+TEST(ResourceMonitor, takesPeriodsOfAnyLength) {
+  for (const auto& often : {std::pair<long long, double>{INT64_MAX, 0.005},
+                            {INT64_MAX / 1000000 + 1, 0.005},
+                            {1, 1e-18},
+                            {1, std::numeric_limits<double>::min()}}) {
+    MonitorOptions options;
+    options.period = std::chrono::milliseconds(often.first);
+    options.most_overhead = often.second;
+    ResourceMonitor monitor(std::make_shared<ProcessTree>(), options);
+    wait(50);
+    EXPECT_LE(monitor.stop().samples_taken, 3u);  // at the begin, at the end, and one of 1 ms
+  }
+}
+
 TEST(ResourceMonitor, stopsOnceAndStaysStopped) {
   ResourceMonitor monitor(std::make_shared<ProcessTree>(), quick());
   wait(20);
@@ -224,6 +242,35 @@ TEST(ResourceMonitor, addsUpEnergy) {
   EXPECT_NEAR(first.dram_joules, 0.5, 1e-9);
   machine.putZone("intel-rapl:1", "package-1", "1000000\n");  // and again
   EXPECT_NEAR(monitor.stop().energy.package_joules, 5 + 299, 1e-9);
+}
+
+// Memory whose energy cannot be read leaves that of the packages.
+TEST(ResourceMonitor, tellsPackagesWithoutMemory) {
+  const FakeMachine machine;
+  machine.putZone("intel-rapl:0", "package-0", "1000000\n");
+  machine.putZone("intel-rapl:0:0", "dram", "5\n");
+  machine.write("class/powercap/intel-rapl:1:0/name", "dram\n");  // no counter
+  ResourceMonitor monitor(std::make_shared<ProcessTree>(), machine.options());
+  machine.putZone("intel-rapl:0", "package-0", "3000000\n");
+  const gslam::EnergyReport energy = monitor.stop().energy;
+  EXPECT_EQ(energy.why_not, "");
+  EXPECT_NEAR(energy.package_joules, 2, 1e-9);
+  EXPECT_FALSE(energy.has_dram);  // half of it would be wrong
+}
+
+// To start NVML takes long; what the machine uses meanwhile is not the run's.
+TEST(ResourceMonitor, beginsWithEnergyLast) {
+  const FakeMachine machine;
+  machine.putZone("intel-rapl:0", "package-0", "1000000\n");
+  MonitorOptions options = machine.options();
+  options.nvml = GSLAM_TEST_NVML;
+  const std::string counter = machine.root() + "/class/powercap/intel-rapl:0/energy_uj";
+  setenv("GSLAM_TEST_NVML_USES_ENERGY", counter.c_str(), 1);
+  ResourceMonitor monitor(std::make_shared<ProcessTree>(), options);
+  unsetenv("GSLAM_TEST_NVML_USES_ENERGY");
+  EXPECT_EQ(machine.read("class/powercap/intel-rapl:0/energy_uj"), "150000000\n");
+  machine.putZone("intel-rapl:0", "package-0", "152000000\n");
+  EXPECT_NEAR(monitor.stop().energy.package_joules, 2, 1e-9);
 }
 
 TEST(ResourceMonitor, saysWhyThereIsNoEnergy) {

@@ -10,7 +10,9 @@
 //   spender affinity          prints the cores that it may run on
 //   spender kinds             counts each way to get memory, and says what is expected
 //   spender fork N            makes N blocks in a forked child, and prints what that counted
-//   spender crowd T N         T threads at once, each of which makes and frees N blocks
+//   spender many N C          C children, one after the other, each of which makes N blocks
+//   spender forks N           makes N blocks in a child of a child, and in a spender that one
+//   starts spender crowd T N         T threads at once, each of which makes and frees N blocks
 //   spender spawn N           has another spender make N blocks
 //   spender demand MB         prints whether it gets so much memory
 //
@@ -219,6 +221,23 @@ void countReadings() {
   count("reading_a_process", 0, 0, 0, [] { tree.read(); });
   count("reading_its_clock", 0, 0, 0, [] { tree.cpuTime(); });
   count("counting", 0, 0, 0, [] { gslam::allocationCountsOf(0); });
+  // Also with a child of many threads.
+  int ready[2];
+  if (pipe(ready) != 0) return;
+  const pid_t child = fork();
+  if (child == 0) {
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 16; ++i) threads.emplace_back([] { pause(); });
+    if (write(ready[1], "", 1) == 1) pause();
+    _exit(0);
+  }
+  char byte = 0;
+  if (read(ready[0], &byte, 1) != 1) std::abort();
+  tree.read();
+  tree.read();
+  count("reading_many_threads", 0, 0, 0, [] { tree.read(); });
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
 }
 
 void forkAndCount(int blocks_of_child) {
@@ -228,6 +247,39 @@ void forkAndCount(int blocks_of_child) {
     makeBlocks(0, blocks_of_child, 100);
     const gslam::AllocationCounts done = gslam::allocatedBetween(before, gslam::allocationCounts());
     std::printf("child %d %d\n", int(done.is_counted), int(done.calls));
+    _exit(0);
+  }
+  waitpid(child, nullptr, 0);
+}
+
+void spawn(const char* program, int blocks_of_child);
+
+// Children that are gone one after the other; every other one is another program.
+void many(const char* program, int blocks_of_each, int children) {
+  for (int i = 0; i < children; ++i) {
+    if (i % 2 == 0) {
+      spawn(program, blocks_of_each);
+      continue;
+    }
+    const pid_t child = fork();
+    if (child == 0) {
+      makeBlocks(0, blocks_of_each, 10);
+      _exit(0);
+    }
+    waitpid(child, nullptr, 0);
+  }
+}
+
+void forkTwice(const char* program, int blocks_of_each) {
+  const pid_t child = fork();
+  if (child == 0) {
+    const pid_t grandchild = fork();
+    if (grandchild == 0) {
+      makeBlocks(0, blocks_of_each, 10);
+      spawn(program, blocks_of_each);
+      _exit(0);
+    }
+    waitpid(grandchild, nullptr, 0);
     _exit(0);
   }
   waitpid(child, nullptr, 0);
@@ -369,6 +421,10 @@ int runCommand(int argc, char** argv) {
     countReadings();
   } else if (command == "fork") {
     forkAndCount(first);
+  } else if (command == "many") {
+    many(argv[0], first, std::atoi(number(argc, argv, 3).c_str()));
+  } else if (command == "forks") {
+    forkTwice(argv[0], first);
   } else if (command == "crowd") {
     crowd(first, std::atoi(number(argc, argv, 3).c_str()));
   } else if (command == "spawn") {

@@ -45,21 +45,29 @@ struct CostSource {
 ///
 /// Thread-safety: plain data.
 struct Cost {
-  CostSource source;                 ///< what it was made of
-  std::size_t delivered = 0;         ///< frames that were given to the system
-  std::size_t results = 0;           ///< of these with a pose
-  std::size_t dropped = 0;           ///< frames that were not given to it
-  Statistics frame_ms;               ///< FrameTime::wall_ms
-  Statistics feed_ms;                ///< FrameTime::feed_ms
-  Statistics cpu_ms;                 ///< FrameTime::cpu_ms
-  double span_seconds = 0;           ///< from the first delivery to the last end of feed() or pose
-  double frames_per_second = 0;      ///< delivered ones over that time; 0: not known
-  bool has_allocations = false;      ///< whether they are counted
-  double allocations_per_frame = 0;  ///< mean of FrameTime::allocations
-  double allocated_bytes_per_frame = 0;  ///< mean of FrameTime::allocated_bytes
+  CostSource source;             ///< what it was made of
+  std::size_t delivered = 0;     ///< frames that were given to the system
+  std::size_t results = 0;       ///< of these with a pose
+  std::size_t dropped = 0;       ///< frames that MeasuredSlam was told were not given to it
+  std::size_t overlapping = 0;   ///< delivered ones whose work began before that of an earlier
+                                 ///< one had ended: what was used meanwhile is in the figures of
+                                 ///< both frames
+  Statistics frame_ms;           ///< FrameTime::wall_ms
+  Statistics feed_ms;            ///< FrameTime::feed_ms
+  Statistics cpu_ms;             ///< FrameTime::cpu_ms
+  double span_seconds = 0;       ///< from the first delivery to the last end of feed() or pose
+  double frames_per_second = 0;  ///< delivered ones over that time; 0: not known
+  bool has_allocations = false;  ///< whether those of the run are counted
+  std::size_t counted = 0;       ///< delivered frames with counts of allocations
+  /// @{
+  /// What was used while some frame was in work, which counts once however many are, by the number
+  /// of delivered frames (with counts of allocations).
+  double cpu_ms_per_frame = 0;
+  double allocations_per_frame = 0, allocated_bytes_per_frame = 0;
+  /// @}
 };
 
-/// Sums up. O(n).
+/// Sums up. O(n log n).
 GSLAM_EVALUATION_EXPORT Cost costOf(CostSource source);
 
 /// The object "cost" of metrics.json; the README of this library describes it. What there is no

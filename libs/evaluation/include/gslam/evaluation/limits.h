@@ -54,16 +54,21 @@ struct MemoryLimitOptions {
 };
 
 /// Limits memory of this process and all that it starts, as long as it lives. There should be one
-/// at a time.
+/// at a time, made first thing. (To limit a SLAM system alone, run it in a process that limits
+/// itself, as `gslam run` does.)
 ///
 /// Where a control group (cgroup v2) can be made, which needs the rights to do it (root, or
 /// systemd's delegation to a user), this process moves to a new one, which has the limit for all
-/// that is in it together, without swap: the system ends what goes beyond. Processes that live on
-/// keep it.
+/// that is in it together, without swap: the system ends what goes beyond. What this process had
+/// before stays in its old group and does not count. Processes that live on keep the limit. The
+/// group of a process that was killed stays; the next MemoryLimit or removeEndedMemoryGroups()
+/// removes it.
 ///
 /// Otherwise it is a limit of each process (RLIMIT_DATA): of what it writes to and does not share,
-/// whether used or not; beyond it malloc() fails and operator new throws std::bad_alloc. Limiting
-/// addresses (RLIMIT_AS) would count what programs merely reserve, such as libraries and drivers.
+/// whether used or not; beyond it malloc() fails and operator new throws std::bad_alloc. Each
+/// thread counts with its stack, usually 8 MiB, so that std::thread may fail first. It is never
+/// more than the limit that there was. Limiting addresses (RLIMIT_AS) would count what programs
+/// merely reserve, such as libraries and drivers.
 ///
 /// Linux only: elsewhere the constructor throws Error.
 class GSLAM_EVALUATION_EXPORT MemoryLimit {
@@ -80,11 +85,17 @@ class GSLAM_EVALUATION_EXPORT MemoryLimit {
   const std::string& text() const noexcept;
   /// Whether a control group was made.
   bool isCgroup() const noexcept;
+  /// Its folder, such as "/sys/fs/cgroup/user.slice/gslam-1234"; empty: there is none.
+  const std::string& group() const noexcept;
 
  private:
   class Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Removes control groups that a MemoryLimit of a process made which is gone, such as one that had
+/// more memory than it may. For who started it; does nothing where there are none.
+GSLAM_EVALUATION_EXPORT void removeEndedMemoryGroups(const MemoryLimitOptions& options = {});
 
 }  // namespace v1
 }  // namespace gslam

@@ -48,14 +48,15 @@ struct ProcessUsage {
   std::uint64_t major_faults = 0;          ///< pages that were read from a disk
 };
 
-/// What was used from one reading to a later one: CPU, switches and faults are differences, all
-/// else is as in the later.
+/// What was used from one reading to a later one: CPU, switches and faults are differences (of
+/// numbers, never below 0), all else is as in the later.
 GSLAM_EVALUATION_EXPORT ProcessUsage usedBetween(const ProcessUsage& earlier,
                                                  const ProcessUsage& later);
 
 /// How ProcessTree reads.
 struct ProcessTreeOptions {
-  long root = 0;               ///< number of the process at the root; 0: this one
+  long root = 0;               ///< number of the process at the root; 0: this one (and not the
+                               ///< IsolatedSlam whose processNumber() is 0: it has none any more)
   bool has_pss = false;        ///< whether to find out ProcessUsage::pss_bytes, which takes about a
                                ///< millisecond for each 100 MB of memory
   std::string proc = "/proc";  ///< where the files are
@@ -65,7 +66,8 @@ struct ProcessTreeOptions {
 /// parent ends before it.
 ///
 /// CPU, switches and faults never go backwards: of a process that ended, what its parent has been
-/// told counts (as exact as it gets), or else its last reading. A process that starts and ends
+/// told counts (as exact as it gets), or else its last reading; whether it was told, page faults
+/// show. A process that starts and ends
 /// between two readings is known by what its parent is told: CPU and faults, no switches.
 ///
 /// All members are thread-safe. Files are parsed by names and after the last ')' of a program's
@@ -85,7 +87,8 @@ class GSLAM_EVALUATION_EXPORT ProcessTree {
 
   /// CPU time, user and system, of the processes that the last read() found and of those that
   /// ended before it, nanoseconds: for a single frame. About 1 us. Never goes backwards, and is
-  /// ahead of ProcessUsage::cpu_seconds by what was used since.
+  /// ahead of ProcessUsage::cpu_seconds by what was used since. A process that gets the number of
+  /// one that ended is not counted where the clock was found gone or behind in between.
   std::int64_t cpuTime();
 
   /// Number of the process at the root.

@@ -24,9 +24,11 @@ inline namespace v1 {
 
 /// How ResourceMonitor samples.
 struct MonitorOptions {
-  /// Between two samples. It becomes longer where they would take more than `most_overhead`.
+  /// Between two samples. It becomes longer where they would take more than `most_overhead`; a day
+  /// at most.
   std::chrono::milliseconds period{50};
-  double most_overhead = 0.005;     ///< of one core, for all samples together
+  double most_overhead = 0.005;     ///< of one core, for all samples together but the last and
+                                    ///< those that report() takes
   std::size_t most_samples = 4096;  ///< that are kept; when as many are there, every other one goes
   std::string proc = "/proc";       ///< of the load of cores
   std::string nvml = "libnvidia-ml.so.1";  ///< NVIDIA's library, of GPUs; loaded where there is one
