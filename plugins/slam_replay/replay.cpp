@@ -75,7 +75,9 @@ class Replay : public gslam::Slam {
       keep(pose);
       pose.T_world_body = poses_->withNoise(smooth, frame.id);
     }
-    if (!answer.is_finite) pose.T_world_body.data()[0] = std::nan("");
+    if (!answer.is_finite) {
+      pose.T_world_body = SE3d(gslam::SO3d(), gslam::Vec3d{{std::nan(""), 0, 0}});
+    }
     pose.stamp += options_.stamp_error;
     publish(pose);
     // A little later than the frame, so that they would count as poses between two of them.

@@ -221,7 +221,7 @@ TEST_F(Replay, SaysWhatIsNotToBeBelieved) {
     EXPECT_EQ(poses_[i].stamp,
               std::int64_t(i / 3) * kStep + 500000000 + std::int64_t(i % 3) * 1000000);
     EXPECT_EQ(poses_[i].frame < 3, i % 3 == 0);
-    EXPECT_EQ(std::isnan(poses_[i].T_world_body.data()[0]), i / 3 == 1) << i;
+    EXPECT_EQ(std::isnan(poses_[i].T_world_body.translation()[0]), i / 3 == 1) << i;
     EXPECT_EQ(poses_[i].state, TrackingState::tracking);
   }
 }
