@@ -6,10 +6,10 @@
 
 namespace replay {
 
-void failIfAsked(const FaultOptions& fault, FaultOptions::Call call, std::uint64_t frame) {
-  if (call != fault.call) return;
-  if (call == FaultOptions::Call::feed && frame < fault.frame) return;
-  switch (fault.kind) {
+namespace {
+
+void fail(FaultOptions::Kind kind) {
+  switch (kind) {
     case FaultOptions::Kind::none:
       return;
     case FaultOptions::Kind::signal:
@@ -24,6 +24,19 @@ void failIfAsked(const FaultOptions& fault, FaultOptions::Call call, std::uint64
     case FaultOptions::Kind::hang:
       while (true) std::this_thread::sleep_for(std::chrono::hours(1));
   }
+}
+
+}  // namespace
+
+void failInConstructor() {
+  const char* const name = std::getenv("GSLAM_REPLAY_FAULT");
+  if (name != nullptr) fail(faultCalled("GSLAM_REPLAY_FAULT", name));
+}
+
+void failIfAsked(const FaultOptions& fault, FaultOptions::Call call, std::uint64_t frame) {
+  if (call != fault.call) return;
+  if (call == FaultOptions::Call::feed && frame < fault.frame) return;
+  fail(fault.kind);
 }
 
 }  // namespace replay

@@ -13,11 +13,13 @@ namespace replay {
 struct Answer {
   bool is_given = true;  ///< whether anything is said of it at all
   gslam::TrackingState state = gslam::TrackingState::tracking;
+  bool is_finite = true;  ///< the pose
 };
 
 /// When tracking is not what it should be: "100-149, 200-209:guessed, 2.5s-3s:none". Intervals have
 /// both ends in them; they are of Frame::id, or with an s of seconds since the first frame. What
-/// stands behind the colon is lost (which it is without), guessed, starting, or none: no answer.
+/// stands behind the colon is lost (which it is without), guessed, starting, none (no answer), or
+/// nan (tracking, with a pose that is not finite).
 class Losses {
  public:
   Losses() = default;

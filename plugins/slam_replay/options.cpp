@@ -73,16 +73,9 @@ CostOptions readCost(const gslam::Svar& parameters) {
 }
 
 FaultOptions readFault(const gslam::Svar& parameters) {
-  using Kind = FaultOptions::Kind;
   using Call = FaultOptions::Call;
   FaultOptions fault;
-  fault.kind = choice<Kind>(parameters, "fault",
-                            {{"none", Kind::none},
-                             {"signal", Kind::signal},
-                             {"abort", Kind::abort},
-                             {"exit", Kind::exit},
-                             {"throw", Kind::exception},
-                             {"hang", Kind::hang}});
+  fault.kind = faultCalled("fault", parameters.get<std::string>("fault"));
   fault.call = choice<Call>(
       parameters, "fault_in",
       {{"configure", Call::configure}, {"feed", Call::feed}, {"finish", Call::finish}});
@@ -92,14 +85,42 @@ FaultOptions readFault(const gslam::Svar& parameters) {
 
 }  // namespace
 
+FaultOptions::Kind faultCalled(const char* parameter, const std::string& name) {
+  using Kind = FaultOptions::Kind;
+  return choice<Kind>(gslam::Svar::object({{parameter, name}}), parameter,
+                      {{"none", Kind::none},
+                       {"signal", Kind::signal},
+                       {"abort", Kind::abort},
+                       {"exit", Kind::exit},
+                       {"throw", Kind::exception},
+                       {"hang", Kind::hang}});
+}
+
 gslam::Svar defaultParameters() {
-  return gslam::Svar::object(
-      {{"trajectory", ""},    {"max_gap_s", 0.0},  {"noise_m", 0.0},       {"noise_deg", 0.0},
-       {"seed", 0},           {"scale", 1.0},      {"drift_percent", 0.0}, {"drift_deg_per_m", 0.0},
-       {"start_after", 0},    {"losses", ""},      {"delay_ms", 0.0},      {"latency_ms", 0.0},
-       {"keyframe_every", 0}, {"corrects", false}, {"allocations", 0},     {"allocation_bytes", 64},
-       {"cpu_ms", 0.0},       {"cpu_threads", 1},  {"grow_mb", 0.0},       {"fault", "none"},
-       {"fault_in", "feed"},  {"fault_at", 0}});
+  return gslam::Svar::object({{"trajectory", ""},
+                              {"max_gap_s", 0.0},
+                              {"noise_m", 0.0},
+                              {"noise_deg", 0.0},
+                              {"seed", 0},
+                              {"scale", 1.0},
+                              {"drift_percent", 0.0},
+                              {"drift_deg_per_m", 0.0},
+                              {"start_after", 0},
+                              {"losses", ""},
+                              {"delay_ms", 0.0},
+                              {"latency_ms", 0.0},
+                              {"strays", 0},
+                              {"stamp_error_s", 0.0},
+                              {"keyframe_every", 0},
+                              {"corrects", false},
+                              {"allocations", 0},
+                              {"allocation_bytes", 64},
+                              {"cpu_ms", 0.0},
+                              {"cpu_threads", 1},
+                              {"grow_mb", 0.0},
+                              {"fault", "none"},
+                              {"fault_in", "feed"},
+                              {"fault_at", 0}});
 }
 
 Options readOptions(const gslam::Svar& parameters) {
@@ -111,6 +132,8 @@ Options readOptions(const gslam::Svar& parameters) {
   options.start_after = count(parameters, "start_after", 1e15);
   options.delay = milliseconds(parameters, "delay_ms");
   options.latency = milliseconds(parameters, "latency_ms");
+  options.strays = count(parameters, "strays", 1e6);
+  options.stamp_error = std::llround(1e9 * number(parameters, "stamp_error_s", -1e6, 1e6));
   options.keyframe_every = count(parameters, "keyframe_every", 1e15);
   options.is_corrected = parameters.get<bool>("corrects");
   return options;

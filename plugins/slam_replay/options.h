@@ -42,6 +42,11 @@ struct FaultOptions {
   std::uint64_t frame = 0;  ///< at the first frame of this id or a later one
 };
 
+/// The kind of fault with that name.
+/// @param parameter  what has that name as its value
+/// @throws ArgumentError
+FaultOptions::Kind faultCalled(const char* parameter, const std::string& name);
+
 /// All parameters of the system, in the units of the program.
 struct Options {
   PoseOptions poses;
@@ -51,6 +56,8 @@ struct Options {
   std::uint64_t start_after = 0;        ///< frames before the first pose
   std::chrono::nanoseconds delay{0};    ///< of feed()
   std::chrono::nanoseconds latency{0};  ///< of the answer, behind feed()
+  std::uint64_t strays = 0;             ///< poses a frame of frames that there are not
+  std::int64_t stamp_error = 0;         ///< of the poses' stamps, nanoseconds
   std::uint64_t keyframe_every = 0;     ///< frames; 0: no map
   bool is_corrected = false;            ///< whether poses are published again without noise
 };

@@ -1,5 +1,6 @@
 #include "replay.h"
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -19,9 +20,17 @@ using gslam::SE3d;
 using gslam::TrackedPose;
 using gslam::TrackingState;
 
+constexpr std::uint64_t kFirstStray = std::uint64_t(1) << 40;
+
 class Replay : public gslam::Slam {
  public:
+  Replay() { failInConstructor(); }
+
   void configure(const gslam::SlamSetup& setup) override {
+    late_.reset();
+    map_ = gslam::Map();
+    smooth_.clear();
+    fed_ = tracked_ = 0;
     options_ = readOptions(setup.parameters);
     failIfAsked(options_.fault, FaultOptions::Call::configure);
     poses_.emplace(options_.poses);
@@ -66,8 +75,20 @@ class Replay : public gslam::Slam {
       keep(pose);
       pose.T_world_body = poses_->withNoise(smooth, frame.id);
     }
-    late_ ? late_->add(pose) : pose_topic_.publish(pose);
+    if (!answer.is_finite) {
+      pose.T_world_body = SE3d(gslam::SO3d(), gslam::Vec3d{{std::nan(""), 0, 0}});
+    }
+    pose.stamp += options_.stamp_error;
+    publish(pose);
+    // A little later than the frame, so that they would count as poses between two of them.
+    for (std::uint64_t i = 1; i <= options_.strays; ++i) {
+      pose.frame = kFirstStray + i;
+      pose.stamp += 1000000;
+      publish(pose);
+    }
   }
+
+  void publish(const TrackedPose& pose) { late_ ? late_->add(pose) : pose_topic_.publish(pose); }
 
   // What a system knows better later: poses without noise, and keyframes of these.
   void keep(const TrackedPose& smooth) {

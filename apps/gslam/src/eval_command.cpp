@@ -11,6 +11,7 @@
 #include "comparison.h"
 #include "machine.h"
 #include "options.h"
+#include "run_folder.h"
 #include "trajectory_input.h"
 
 namespace app {
@@ -32,14 +33,24 @@ void finishAssociation(const Options& options, const Input& reference, const Inp
                         " is a KITTI file, which has no times, and the other has some");
 }
 
-// What `gslam run` wrote beside the estimate says which poses its two files have.
-std::string posesUsed(const Input& input) {
+// What `gslam run` wrote of the run that the file is of; null where it is of none.
+Svar reportOf(const Input& input) {
+  const fs::path path = input.path;
+  const fs::path parent = path.parent_path();
+  const RunFolder folder(parent.empty() ? "." : parent.string());
+  for (const std::string& own : {folder.trajectory(), folder.final(), folder.map()}) {
+    if (path.filename() == fs::path(own).filename()) return folder.ownReport();
+  }
+  return nullptr;
+}
+
+// It says also which poses its two trajectories have.
+std::string posesUsed(const Input& input, const Svar& report) {
   if (input.format == "map") return "final, keyframes";
-  const fs::path path = input.path, run = path.parent_path() / "run.json";
-  if (!fs::exists(run)) return "as in the file";
+  if (report.isNull()) return "as in the file";
+  const fs::path path = input.path;
   if (path.filename() == "trajectory.txt") return "live, all";
-  if (path.filename() != "trajectory_final.txt") return "as in the file";
-  const Svar poses = gslam::loadJson(run.string()).get<Svar>("poses.final", Svar());
+  const Svar poses = report.get<Svar>("poses.final", Svar());
   const bool are_keyframes =
       poses.is<std::string>() && poses.as<std::string>().find("keyframes") != std::string::npos;
   return are_keyframes ? "final, keyframes" : "final, all";
@@ -47,12 +58,12 @@ std::string posesUsed(const Input& input) {
 
 // Where the estimate lies beside what `gslam run` wrote, that says dataset, SLAM, parameters, seed.
 Svar protocolOf(const Input& reference, const Input& estimate) {
+  const Svar report = reportOf(estimate);
   Svar protocol = Svar::object({{"reference", describe(reference)},
                                 {"estimate", describe(estimate)},
-                                {"poses_used", posesUsed(estimate)},
+                                {"poses_used", posesUsed(estimate, report)},
                                 {"machine", describeMachine()}});
-  const fs::path run = fs::path(estimate.path).parent_path() / "run.json";
-  if (fs::exists(run)) protocol.set("run", gslam::loadJson(run.string()));
+  if (!report.isNull()) protocol.set("run", report);
   return protocol;
 }
 

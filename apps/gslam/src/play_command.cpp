@@ -1,5 +1,6 @@
 #include <gslam/datasets/contact_sheet.h>
 #include <gslam/datasets/export_dataset.h>
+#include <gslam/svar/error.h>
 #include <gslam/svar/json.h>
 
 #include <atomic>
@@ -71,6 +72,8 @@ int play(Session& session, const Options& options) {
   } else {
     printResult(report, session.hasSlam());
   }
+  std::cout.flush();
+  printFailure(report);
   return statusOf(result.play);
 }
 
@@ -87,7 +90,14 @@ int playCommand(const std::vector<std::string>& arguments) {
   options.arg<std::string>("contact-sheet", "", "PNG file to draw frames in, instead of playing")
       .group("Save");
   if (!options.read(withSettings(arguments))) return kSuccess;
+  if (options.get<double>("timeout") != 0 && !options.get<bool>("isolate")) {
+    throw gslam::ConfigError("--timeout",
+                             "needs --isolate here: a call that hangs cannot be ended "
+                             "within one process");
+  }
   Session session(options);
+  session.findSlam(options);
+  session.makeSlam();
   const auto sheet = options.get<std::string>("contact-sheet");
   const auto folder = options.get<std::string>("save");
   if (!sheet.empty()) gslam::writeContactSheet(session.dataset(), sheet);

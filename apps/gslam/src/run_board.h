@@ -6,11 +6,11 @@
 
 namespace app {
 
-/// Where the process of a run is. Those up to `finishing` that end in -ing, but `waiting`, are
-/// calls of the SLAM system.
+/// Where the process of a run is, in the order in which that comes.
 enum class RunPhase : int {
-  loading,      ///< the dataset and the SLAM system
-  preparing,    ///< the files of the results
+  loading,      ///< the dataset
+  making,       ///< the SLAM system: its plugin, its constructor
+  preparing,    ///< the files of the results, and what measures
   ready,        ///< waits until it is watched
   configuring,  ///< in configure()
   waiting,      ///< between two calls, such as while a frame is read
@@ -27,11 +27,15 @@ enum class RunPhase : int {
 struct RunBoard {
   std::atomic<RunPhase> phase{RunPhase::loading};
   std::atomic<std::int64_t> since{0};    ///< when it was entered; nanoseconds of steady_clock
+  std::atomic<bool> has_files{false};    ///< whether run.json is of this run
+  std::atomic<bool> has_said{false};     ///< why it cannot go on, on stderr
   std::atomic<bool> has_frame{false};    ///< whether a frame was fed
   std::atomic<std::uint64_t> frame{0};   ///< id of the last one
   std::atomic<std::int64_t> process{0};  ///< that runs the SLAM system
-  std::atomic<bool> is_watched{false};   ///< the answer to `ready`
-  std::atomic<bool> is_read{false};      ///< the answer to `played`
+  std::atomic<std::uint64_t> invalid_poses{0};  ///< as LiveTrajectory counts them
+  std::atomic<std::uint64_t> wrong_stamps{0};   ///< likewise
+  std::atomic<bool> is_watched{false};          ///< the answer to `ready`
+  std::atomic<bool> is_read{false};             ///< the answer to `played`
 
   void enter(RunPhase next) noexcept;
 };

@@ -32,43 +32,76 @@ MeasuredRun runOnce(RunSupervisor& supervisor, const RunOptions& options,
   return result;
 }
 
+Svar resultOf(const SupervisedRun& run) {
+  return run.report.get<Svar>("result", Svar::object());
+}
+
 void print(const SupervisedRun& run) {
-  const Svar result = run.report.get<Svar>("result", Svar::object());
-  printResult(result, true);
+  printResult(resultOf(run), true);
+}
+
+// Also where stdout is for machines.
+void printFailure(const SupervisedRun& run) {
+  const Svar result = resultOf(run);
+  app::printFailure(result);
   const auto remark = result.get<std::string>("remark", "");
   if (!remark.empty()) std::cerr << remark << '\n';
 }
 
+// What was wrong is on stderr already.
+int notBegun(const SupervisedRun& run) {
+  if (run.status == kInterrupted) std::cerr << "gslam run: was stopped before it began\n";
+  return run.status;
+}
+
+// Marks a folder of repeated runs; each has a report of its own.
+Svar reportOfAll(const RunOptions& options) {
+  return Svar::object({{"program", kRunProgram}, {"repeat", options.repeats()}});
+}
+
 int runSingle(RunSupervisor& supervisor, const RunOptions& options,
               const std::vector<std::string>& arguments, const RunFolder& folder) {
+  folder.check();
   const MeasuredRun one = runOnce(supervisor, options, arguments, folder);
-  if (!one.run.has_begun) return one.run.status;
+  if (!one.run.has_begun) return notBegun(one.run);
   if (options.isJson()) {
     std::cout << gslam::printJson(one.metrics.json) << '\n';
   } else {
     print(one.run);
     std::cout << one.metrics.text << "results      " << folder.metrics() << ", run.json, ...\n";
   }
+  std::cout.flush();
+  printFailure(one.run);
   return one.run.status;
 }
 
 int runRepeated(RunSupervisor& supervisor, const RunOptions& options,
                 const std::vector<std::string>& arguments, const RunFolder& folder) {
+  folder.check();
+  for (int number = 1; number <= options.repeats(); ++number) folder.repeat(number).check();
   std::vector<Svar> metrics;
   int status = kSuccess;
   for (int number = 1; number <= options.repeats() && !supervisor.isStopped(); ++number) {
     const MeasuredRun one = runOnce(supervisor, options, arguments, folder.repeat(number));
-    if (!one.run.has_begun) return one.run.status;  // nor would the others
+    if (!one.run.has_begun) {  // nor would the others
+      status = notBegun(one.run);
+      break;
+    }
     if (one.run.status != kSuccess) status = one.run.status;
-    if (number == 1) folder.clear(2);
+    if (number == 1) {
+      folder.clear(2);
+      reportOfAll(options).save(folder.report());
+    }
     metrics.push_back(one.metrics.json);
     summaryOf(metrics).save(folder.metrics());  // should this be its last
-    if (options.isJson()) continue;
-    std::cout << "run " << number << " of " << options.repeats() << ": " << std::flush;
-    print(one.run);
-    std::cout.flush();
+    if (!options.isJson()) {
+      std::cout << "run " << number << " of " << options.repeats() << ": ";
+      print(one.run);
+      std::cout.flush();
+    }
+    printFailure(one.run);
   }
-  if (metrics.empty()) return kInterrupted;
+  if (metrics.empty()) return supervisor.isStopped() ? kInterrupted : status;
   const Svar summary = summaryOf(metrics);
   if (options.isJson()) {
     std::cout << gslam::printJson(summary) << '\n';

@@ -27,7 +27,8 @@ RunMetrics measureRun(const RunFolder& folder, const gslam::Svar& report,
                       const gslam::EvaluationOptions& how, gslam::CostSource cost);
 
 /// Sums up runs: in place of each number of theirs, its mean, median, std, min, max and count over
-/// those that finished, and how many did not.
+/// those that have it, and how many did not finish. Failed ones count with what they reached, and
+/// with a score of 0 where they have none; those that were stopped do not count.
 /// @param metrics  as measureRun() gives, of one run at least
 gslam::Svar summaryOf(const std::vector<gslam::Svar>& metrics);
 /// The most important of it, for people.

@@ -56,34 +56,31 @@ RunProcess::RunProcess(const std::vector<std::string>& arguments, int file) {
 
 RunProcess::~RunProcess() {
   kill();
-  ProcessEnd end;
-  while (!waitFor(std::chrono::milliseconds(100), end)) {
+  while (is_alive_ && !waitFor(std::chrono::milliseconds(100))) {
   }
+  if (is_alive_) collect();
   if (handle_ >= 0) close(handle_);
 }
 
-bool RunProcess::waitFor(std::chrono::milliseconds time, ProcessEnd& end) {
-  if (!is_alive_ || reap(end)) return true;
+bool RunProcess::waitFor(std::chrono::milliseconds time) {
   pollfd handle = {handle_, POLLIN, 0};
   poll(&handle, handle_ >= 0 ? 1 : 0, int(time.count()));
-  return reap(end);
+  siginfo_t facts = {};
+  // Fails when somebody else reaped it.
+  return waitid(P_PID, id_t(number_), &facts, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+         facts.si_pid != 0;
 }
 
-bool RunProcess::reap(ProcessEnd& end) {
+ProcessEnd RunProcess::collect() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  siginfo_t facts = {};
-  if (waitid(P_PID, id_t(number_), &facts, WEXITED | WNOHANG | WNOWAIT) != 0) {
-    is_alive_ = false;  // somebody else reaped it
-    return true;
-  }
-  if (facts.si_pid == 0) return false;
-  ::kill(-number_, SIGKILL);  // what it started and left
+  ::kill(-number_, SIGKILL);
   int status = 0;
   waitpid(number_, &status, 0);
   is_alive_ = false;
+  ProcessEnd end;
   end.is_signal = WIFSIGNALED(status);
   end.number = end.is_signal ? WTERMSIG(status) : WEXITSTATUS(status);
-  return true;
+  return end;
 }
 
 void RunProcess::send(pid_t target, int signal) {

@@ -17,7 +17,8 @@ struct ProcessEnd {
 };
 
 /// This program once more, in a process group of its own, for one run. It ends when this process
-/// does. stop() and kill() may be called by any thread.
+/// does. stop() and kill() may be called by any thread. What leaves the group (setsid()) is not
+/// followed.
 class RunProcess {
  public:
   /// Starts it, with its stdout on stderr and nothing on stdin.
@@ -31,13 +32,15 @@ class RunProcess {
   ~RunProcess();
 
   pid_t number() const { return number_; }
-  /// Waits for its end, but not longer than that. All that it started and left is killed then.
-  bool waitFor(std::chrono::milliseconds time, ProcessEnd& end);
+  /// Waits for its end, but not longer than that. What it used can be read until collect().
+  /// @return whether it has ended
+  bool waitFor(std::chrono::milliseconds time);
+  /// How it ended, once waitFor() says so. Kills all that it started and left.
+  ProcessEnd collect();
   void stop();  ///< asks it to end
   void kill();  ///< ends it and all that it started
 
  private:
-  bool reap(ProcessEnd& end);
   void send(pid_t target, int signal);
 
   std::mutex mutex_;  // so that no signal goes to a number that is another's by now

@@ -68,8 +68,28 @@ Svar summed(const std::vector<Svar>& values) {
   return values.empty() ? Svar() : values.front();
 }
 
-bool isFinished(const Svar& metrics) {
-  return metrics.get<std::string>("protocol.run.result.end", "") == "finished";
+bool hasEnd(const Svar& metrics, const char* end) {
+  return metrics.get<std::string>("protocol.run.result.end", "") == end;
+}
+
+// What a run is in the summary with. A failed one counts with what it reached, so that to crash is
+// not better than to lose track; one that was stopped says nothing.
+std::vector<Svar> figuresOf(const std::vector<Svar>& metrics) {
+  const auto hasScore = [](const Svar& run) {
+    return !run.get<Svar>("score.value", Svar()).isNull();
+  };
+  const bool has_score = std::any_of(metrics.begin(), metrics.end(), hasScore);
+  std::vector<Svar> result;
+  for (const Svar& run : metrics) {
+    if (hasEnd(run, "stopped")) continue;
+    Svar figures = Svar::object();
+    for (const Svar::Member& member : run.members()) {
+      if (member.first != "protocol") figures.set(member.first, member.second);
+    }
+    if (has_score && !hasScore(run)) figures.set("score", Svar::object({{"value", 0.0}}));
+    result.push_back(figures);
+  }
+  return result;
 }
 
 std::string numberText(const Svar& summary, const std::string& path) {
@@ -85,15 +105,11 @@ std::string numberText(const Svar& summary, const std::string& path) {
 }  // namespace
 
 Svar summaryOf(const std::vector<Svar>& metrics) {
-  std::vector<Svar> finished;
+  std::size_t finished = 0;
   Svar others = Svar::array();
   for (std::size_t i = 0; i < metrics.size(); ++i) {
-    if (isFinished(metrics[i])) {
-      Svar figures = Svar::object();
-      for (const Svar::Member& member : metrics[i].members()) {
-        if (member.first != "protocol") figures.set(member.first, member.second);
-      }
-      finished.push_back(figures);
+    if (hasEnd(metrics[i], "finished")) {
+      ++finished;
     } else {
       const Svar result = metrics[i].get<Svar>("protocol.run.result", Svar::object());
       others.push_back(Svar::object({{"run", i + 1},
@@ -105,10 +121,12 @@ Svar summaryOf(const std::vector<Svar>& metrics) {
   Svar result = Svar::object();
   result.set("protocol", metrics.front().get<Svar>("protocol", Svar()));
   result.set("runs", Svar::object({{"count", metrics.size()},
-                                   {"finished", finished.size()},
-                                   {"failed", metrics.size() - finished.size()},
+                                   {"finished", finished},
+                                   {"failed", metrics.size() - finished},
                                    {"failures", others}}));
-  const Svar figures = summed(finished);
+  result.set("coverage", nullptr);
+  result.set("score", nullptr);
+  const Svar figures = summed(figuresOf(metrics));
   if (figures.isNull()) return result;
   for (const Svar::Member& member : figures.members()) result.set(member.first, member.second);
   return result;
@@ -117,7 +135,9 @@ Svar summaryOf(const std::vector<Svar>& metrics) {
 std::string summaryText(const Svar& summary) {
   std::ostringstream out;
   out << "runs         " << summary.get<std::size_t>("runs.count") << ", of which "
-      << summary.get<std::size_t>("runs.failed") << " did not finish and are not in what follows\n";
+      << summary.get<std::size_t>("runs.failed")
+      << " did not finish: these count with what they reached, or if they were stopped not "
+         "at all\n";
   const std::pair<const char*, const char*> kFigures[] = {
       {"coverage     part of frames      ", "coverage.frames"},
       {"APE          translation rmse, m ", "ape.translation.rmse"},

@@ -1,7 +1,6 @@
 #include "run_supervisor.h"
 
 #include <gslam/core/isolated_slam.h>
-#include <gslam/core/trajectory_file.h>
 #include <gslam/evaluation/allocation_counts.h>
 #include <gslam/evaluation/limits.h>
 #include <unistd.h>
@@ -10,12 +9,12 @@
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "command.h"
 #include "frame_log.h"
+#include "live_trajectory.h"
 #include "run_board.h"
 #include "run_worker.h"
 #include "session.h"
@@ -77,6 +76,7 @@ milliseconds limitOf(RunPhase phase, const RunOptions& options) {
   const CallLimits limits = callLimits(options);
   const milliseconds more(options.get<bool>("isolate") ? 10000 : 0);
   switch (phase) {
+    case RunPhase::making:
     case RunPhase::configuring:
       return limits.configure + more;
     case RunPhase::feeding:
@@ -123,13 +123,6 @@ struct Abnormal {
   bool is_stopped;  // the user asked for it, or that
 };
 
-// An error of the program itself, which it printed: results that cannot be written.
-bool isOwnFailure(const Abnormal& how) {
-  const bool is_call = how.phase >= RunPhase::configuring && how.phase <= RunPhase::mapping &&
-                       how.phase != RunPhase::waiting;
-  return !how.end.is_signal && how.end.number == kFailure && !is_call;
-}
-
 IsolationFailure failureOf(const Abnormal& how, const RunBoard& board, const RunOptions& options) {
   IsolationFailure failure;
   failure.kind = how.is_late         ? IsolationFailure::Kind::timeout
@@ -145,8 +138,9 @@ IsolationFailure failureOf(const Abnormal& how, const RunBoard& board, const Run
 }
 
 bool mayBeMemory(const Abnormal& how, const RunOptions& options) {
-  return options.memory() > 0 && how.end.is_signal &&
-         (how.end.number == SIGKILL || how.end.number == SIGABRT);
+  const int signal = how.end.is_signal ? how.end.number : 0;
+  return options.memory() > 0 &&
+         (signal == SIGKILL || signal == SIGABRT || signal == SIGSEGV || signal == SIGBUS);
 }
 
 std::string causeOf(const Abnormal& how, const RunOptions& options) {
@@ -159,22 +153,25 @@ std::string causeOf(const Abnormal& how, const RunOptions& options) {
 std::string textOf(const Abnormal& how, const RunBoard& board, const RunOptions& options) {
   if (how.is_killed) return "was killed by a second interrupt";
   if (how.is_stopped && how.phase < RunPhase::configuring) return "was stopped before it began";
-  if (isOwnFailure(how)) return "the program could not go on; stderr has the reason";
+  // Results that cannot be written, for example.
+  if (board.has_said) return "the program could not go on; stderr has the reason";
   const std::string failure = gslam::toText(failureOf(how, board, options));
-  if (how.phase <= RunPhase::ready) {
-    return "the process of the run " + failure.substr(0, failure.find(" between two calls")) +
-           ", while it loaded the dataset and the SLAM system";
+  const std::string outside = failure.substr(0, failure.find(" between two calls"));
+  const char* const process = "the process of the run ";
+  if (how.phase == RunPhase::loading) return process + outside + ", while it loaded the dataset";
+  if (how.phase == RunPhase::preparing || how.phase == RunPhase::ready) {
+    return process + outside + ", before the first call";
   }
-  if (how.phase >= RunPhase::played) {
-    return "the process of the run " + failure.substr(0, failure.find(" between two calls")) +
-           ", while it wrote the results";
-  }
-  std::string text = "the SLAM system " + failure;
+  if (how.phase >= RunPhase::played) return process + outside + ", while it wrote the results";
+  std::string text =
+      "the SLAM system " +
+      (how.phase == RunPhase::making ? outside + ", while it was loaded and made" : failure);
   if (how.is_late) text += "; --timeout says how long a call may take";
   if (!how.is_late && mayBeMemory(how, options)) {
     text += "; it may have no more memory than --memory " + options.get<std::string>("memory");
   }
-  if (!how.is_late && *callOf(how.phase) == '\0') text += " (one of its threads, or the dataset)";
+  if (!how.is_late && how.phase == RunPhase::waiting)
+    text += " (one of its threads, or the dataset)";
   return text;
 }
 
@@ -182,13 +179,7 @@ std::string textOf(const Abnormal& how, const RunBoard& board, const RunOptions&
 Svar resultOf(const Abnormal& how, const RunBoard& board, const RunOptions& options,
               const RunFolder& folder) {
   const FrameRecords records = readFrames(folder.frames());
-  gslam::TrajectoryFileOptions reading;
-  reading.may_be_empty = true;
-  reading.duplicates = gslam::DuplicateStamps::keep_first;
-  gslam::Trajectory poses;
-  if (std::filesystem::exists(folder.trajectory())) {
-    poses = gslam::readTrajectory(folder.trajectory(), reading);
-  }
+  const gslam::Trajectory poses = readLiveTrajectory(folder.trajectory());
   std::uint64_t dropped = 0, frames = records.frames.size();
   for (const gslam::FrameTime& frame : records.frames) dropped += frame.is_dropped ? 1 : 0;
   // The one at which it ended has no line.
@@ -204,13 +195,16 @@ Svar resultOf(const Abnormal& how, const RunBoard& board, const RunOptions& opti
                        {"seconds", seconds},
                        {"poses", poses.size()},
                        {"length_m", poses.length()},
+                       {"invalid_poses", std::uint64_t(board.invalid_poses)},
+                       {"wrong_stamps", std::uint64_t(board.wrong_stamps)},
                        {"failure", textOf(how, board, options)},
                        {"cause", causeOf(how, options)}});
 }
 
 // What is known of a run whose process ended before it could say anything.
 Svar leastReport(const RunOptions& options) {
-  return Svar::object({{"dataset", Svar::object({{"given", options.get<std::string>("dataset")}})},
+  return Svar::object({{"program", kRunProgram},
+                       {"dataset", Svar::object({{"given", options.get<std::string>("dataset")}})},
                        {"slam", Svar::object({{"given", options.get<std::string>("slam")},
                                               {"isolated", options.get<bool>("isolate")}})}});
 }
@@ -220,13 +214,33 @@ void clearLine() {
   if (isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);
 }
 
-// Not begun, and it said why: a dataset that is not there, a wrong parameter.
-bool isRefusal(const ProcessEnd& end, RunPhase phase) {
-  return phase == RunPhase::loading && !end.is_signal &&
-         (end.number == kFailure || end.number == kUsage || end.number == kInterrupted);
+// Not begun, so that the results of a run before stay: it said why, such as a dataset that is not
+// there or a wrong parameter, or it was stopped.
+bool isRefusal(const Abnormal& how, const RunBoard& board) {
+  return !board.has_files && (how.is_stopped || (board.has_said && !how.end.is_signal));
 }
 
 }  // namespace
+
+// What stop() and kill() are for, as long as it lives. What came before counts as well.
+class RunSupervisor::Hold {
+ public:
+  Hold(RunSupervisor& supervisor, RunProcess& process) : supervisor_(supervisor) {
+    const std::lock_guard<std::mutex> lock(supervisor_.mutex_);
+    supervisor_.process_ = &process;
+    if (supervisor_.is_stopped_) process.stop();
+    if (supervisor_.is_killed_) process.kill();
+  }
+  Hold(const Hold&) = delete;
+  Hold& operator=(const Hold&) = delete;
+  ~Hold() {
+    const std::lock_guard<std::mutex> lock(supervisor_.mutex_);
+    supervisor_.process_ = nullptr;
+  }
+
+ private:
+  RunSupervisor& supervisor_;
+};
 
 SupervisedRun RunSupervisor::run(const std::vector<std::string>& arguments,
                                  const RunFolder& folder) {
@@ -234,14 +248,10 @@ SupervisedRun RunSupervisor::run(const std::vector<std::string>& arguments,
   std::vector<std::string> words = {kRunWorker, std::to_string(board.file()), folder.path()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   RunProcess process(words, board.file());
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    process_ = &process;
-    if (is_killed_) process.kill();
-  }
+  const Hold hold(*this, process);
   Meter meter(*board);
   Abnormal how{{}, RunPhase::loading, false, false, false};
-  while (!process.waitFor(milliseconds(20), how.end)) {
+  while (!process.waitFor(milliseconds(20))) {
     meter.look();
     if (how.is_late || !isLate(*board, options_)) continue;
     how.is_late = true;
@@ -249,33 +259,33 @@ SupervisedRun RunSupervisor::run(const std::vector<std::string>& arguments,
     process.kill();
   }
   meter.end();
+  how.end = process.collect();
   gslam::removeEndedMemoryGroups();  // of a process that had more memory than it may
   if (!how.is_late) how.phase = board->phase;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    process_ = nullptr;
     how.is_killed = is_killed_;
     how.is_stopped = is_killed_ || (is_stopped_ && how.end.number == kInterrupted);
   }
 
   SupervisedRun result;
   result.cost = meter.source();
-  result.status = how.end.number;
-  if (isRefusal(how.end, how.phase)) return result;
+  result.status = how.is_stopped ? kInterrupted : how.end.number;
+  if (isRefusal(how, *board)) return result;
   result.has_begun = true;
   clearLine();
   if (how.phase == RunPhase::ended) {
     result.report = Svar::load(folder.report());
-    const bool is_clean = !how.is_late && !how.end.is_signal;
-    if (is_clean) return result;
+    const auto end = result.report.get<std::string>("result.end", "");
+    const int expected = end == "finished" ? kSuccess : end == "stopped" ? kInterrupted : kFailure;
+    if (!how.is_late && !how.end.is_signal && how.end.number == expected) return result;
     result.report.set("result.remark",
                       "the process " + gslam::toText(failureOf(how, *board, options_)) +
                           ", after the results were written, while the SLAM system was destroyed");
-    result.status = kFailure;
+    result.status = how.is_killed ? kInterrupted : kFailure;
   } else {
-    if (how.phase == RunPhase::loading) folder.prepare();
-    const bool is_there = std::filesystem::exists(folder.report());
-    result.report = is_there ? Svar::load(folder.report()) : leastReport(options_);
+    if (!board->has_files) folder.prepare();
+    result.report = board->has_files ? Svar::load(folder.report()) : leastReport(options_);
     result.report.set("result", resultOf(how, *board, options_, folder));
     result.status = how.is_stopped ? kInterrupted : kFailure;
   }

@@ -16,7 +16,7 @@ namespace app {
 
 /// What came of one run.
 struct SupervisedRun {
-  bool has_begun = false;  ///< otherwise it could not be set up, which it has said on stderr
+  bool has_begun = false;  ///< otherwise it was stopped, or it could not be set up and said so
   int status = 0;          ///< that `gslam run` ends with
   gslam::Svar report;      ///< what is in run.json
   gslam::CostSource cost;  ///< what it used; without frames
@@ -40,6 +40,8 @@ class RunSupervisor {
   void kill();             ///< the same at once
 
  private:
+  class Hold;
+
   const RunOptions& options_;
   mutable std::mutex mutex_;
   RunProcess* process_ = nullptr;  // that runs

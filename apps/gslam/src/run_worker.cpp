@@ -1,6 +1,8 @@
 #include "run_worker.h"
 
 #include <gslam/base/error.h>
+#include <gslam/core/detail/exception_text.h>
+#include <gslam/core/isolated_slam.h>
 #include <gslam/core/map_file.h>
 #include <gslam/core/map_trajectory.h>
 #include <gslam/core/trajectory_file.h>
@@ -15,8 +17,10 @@
 #include <chrono>
 #include <cstdlib>
 #include <ctime>
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -59,7 +63,9 @@ class Limits {
     try {
       gslam::setCpuAffinity(cpus, "");
     } catch (const gslam::ArgumentError& error) {
-      throw gslam::ConfigError("--cpus", error.what() + 1);  // behind the name, which is empty
+      // Its message is the argument, a blank, and what is wrong.
+      throw gslam::ConfigError("--cpus",
+                               std::string(error.what()).substr(error.argument().size() + 1));
     }
   }
 
@@ -78,7 +84,11 @@ std::string timeOfDay() {
 
 // What is known before the first frame.
 Svar reportOf(const Session& session, const RunOptions& options, const Limits& limits) {
-  Svar report = session.protocol();
+  Svar report = Svar::object({{"program", kRunProgram}});
+  const Svar protocol = session.protocol();
+  for (const Svar::Member& member : protocol.members()) {
+    report.set(member.first, member.second);
+  }
   report.set("gslam", GSLAM_CORE_VERSION);
   report.set("versions", Svar::object({{"core", GSLAM_CORE_VERSION},
                                        {"evaluation", GSLAM_EVALUATION_VERSION}}));
@@ -105,7 +115,8 @@ Svar reportOf(const Session& session, const RunOptions& options, const Limits& l
 
 // What the system says at the end, and what that is.
 std::pair<gslam::Trajectory, std::string> finalTrajectory(const gslam::RunResult& result,
-                                                          const WatchedSlam& slam) {
+                                                          const WatchedSlam& slam,
+                                                          const LiveTrajectory& live) {
   const std::vector<gslam::FrameTime> frames = slam.measured().frames();
   const bool is_corrected =
       std::any_of(frames.begin(), frames.end(),
@@ -117,7 +128,17 @@ std::pair<gslam::Trajectory, std::string> finalTrajectory(const gslam::RunResult
       // Two have the same stamp: no trajectory.
     }
   }
-  return {result.trajectory, "last pose of each frame"};
+  return {live.last(), "last pose of each frame"};
+}
+
+// Even a dataset that has results of a run is none to write to.
+void checkIsNotDataset(const RunFolder& folder, const std::string& dataset) {
+  const std::size_t colon = dataset.find(':');  // KIND:PATH
+  for (const std::string& path : {dataset, dataset.substr(colon + 1)}) {
+    std::error_code ignored;
+    if (!std::filesystem::equivalent(path, folder.path(), ignored)) continue;
+    throw gslam::ConfigError("--out", "is the dataset: results go to a folder of their own");
+  }
 }
 
 // Waits until whoever watches has seen it; not for ever, should it be stopped.
@@ -145,8 +166,13 @@ std::shared_ptr<WatchedSlam> watch(Session& session, const RunRecorders& recorde
   return watched;
 }
 
-Svar resultOf(const gslam::RunResult& result, const WatchedSlam& slam) {
+Svar resultOf(const gslam::RunResult& result, const WatchedSlam& slam, const LiveTrajectory& live) {
   Svar described = describe(result);
+  const gslam::Trajectory poses = live.last();
+  described.set("poses", poses.size());
+  described.set("length_m", poses.length());
+  described.set("invalid_poses", live.invalidCount());
+  described.set("wrong_stamps", live.wrongStamps());
   if (!slam.cause().empty()) described.set("cause", slam.cause());
   if (result.play.end == gslam::PlayEnd::failed && slam.cause().empty()) {
     described.set("cause", "dataset");
@@ -157,24 +183,68 @@ Svar resultOf(const gslam::RunResult& result, const WatchedSlam& slam) {
 }
 
 void writeResults(const RunFolder& folder, const gslam::RunResult& result, const WatchedSlam& slam,
-                  Svar& report) {
-  const auto final = finalTrajectory(result, slam);
+                  const LiveTrajectory& live, Svar& report) {
+  const auto final = finalTrajectory(result, slam, live);
   report.set("poses.final", "trajectory_final.txt: " + final.second);
-  report.set("result", resultOf(result, slam));
+  report.set("result", resultOf(result, slam, live));
   report.save(folder.report());  // first: it is there even where the others cannot be written
   gslam::writeTrajectory(folder.final(), final.first);
   if (result.map != nullptr) gslam::saveMap(folder.map(), *result.map);
 }
 
+// The result of a run whose SLAM system could not be made, from the exception in work.
+Svar failureToMake() {
+  return Svar::object({{"end", "failed"},
+                       {"frames", 0},
+                       {"poses", 0},
+                       {"length_m", 0.0},
+                       {"failure", gslam::detail::exceptionText()},
+                       {"cause", causeOfException()}});
+}
+
+// Loads and makes the SLAM system, and begins the results between the two: before its constructor
+// crashes, and after what makes no sense was refused.
+// @return the result when that failed; else null
+Svar make(Session& session, RunBoard& board, const RunFolder& folder, const RunOptions& options,
+          const Limits& limits, Svar& report) {
+  Svar failure;
+  board.enter(RunPhase::making);
+  try {
+    session.findSlam(options);
+  } catch (const gslam::IsolationError&) {
+    failure = failureToMake();
+  }
+  board.enter(RunPhase::preparing);
+  folder.prepare();
+  report = reportOf(session, options, limits);
+  report.save(folder.report());
+  board.has_files = true;
+  const gslam::Trajectory& truth = session.dataset().info().ground_truth;
+  if (!truth.empty()) gslam::writeTrajectory(folder.truth(), truth);
+  if (!failure.isNull()) return failure;
+  board.enter(RunPhase::making);
+  try {
+    session.makeSlam();
+  } catch (...) {
+    failure = failureToMake();
+  }
+  board.enter(RunPhase::preparing);
+  return failure;
+}
+
 int run(RunBoard& board, const RunFolder& folder, const RunOptions& options) {
   const Limits limits(options);
   Session session(options);
-  folder.prepare();
-  board.enter(RunPhase::preparing);
-  Svar report = reportOf(session, options, limits);
-  report.save(folder.report());
-  const gslam::Trajectory& truth = session.dataset().info().ground_truth;
-  if (!truth.empty()) gslam::writeTrajectory(folder.truth(), truth);
+  checkIsNotDataset(folder, session.protocol().get<std::string>("dataset.given"));
+  folder.check();
+  Svar report;
+  const Svar failure = make(session, board, folder, options, limits, report);
+  if (!failure.isNull()) {
+    report.set("result", failure);
+    report.save(folder.report());
+    board.enter(RunPhase::ended);
+    return kFailure;
+  }
   LiveTrajectory live(folder.trajectory());
   FrameLog frames(folder.frames());
   const std::shared_ptr<WatchedSlam> slam = watch(session, {board, live, frames});
@@ -187,7 +257,7 @@ int run(RunBoard& board, const RunFolder& folder, const RunOptions& options) {
   await(board, RunPhase::played, board.is_read);
   board.enter(RunPhase::writing);
   slam->end();
-  writeResults(folder, result, *slam, report);
+  writeResults(folder, result, *slam, live, report);
   live.check();
   frames.check();
   board.enter(RunPhase::ended);
@@ -200,9 +270,14 @@ int runWorker(const std::vector<std::string>& arguments) {
   if (arguments.size() < 2) throw gslam::Error("this is for `gslam run`, not to be typed");
   const SharedBoard board(std::atoi(arguments[0].c_str()));
   gslam::countAllocationsOfChildren();  // of an isolated system
-  RunOptions options;
-  options.take({arguments.begin() + 2, arguments.end()});
-  return run(*board, RunFolder(arguments[1]), options);
+  try {
+    RunOptions options;
+    options.take({arguments.begin() + 2, arguments.end()});
+    return run(*board, RunFolder(arguments[1]), options);
+  } catch (...) {
+    board->has_said = true;  // main() will
+    throw;
+  }
 }
 
 }  // namespace app

@@ -157,17 +157,20 @@ Session::Session(const Options& options) : play_(playOptions(options)) {
                                         {"first_stamp", info.first_stamp},
                                         {"last_stamp", info.last_stamp},
                                         {"ground_truth_poses", info.ground_truth.size()}})}});
-  if (!options.get<std::string>("slam").empty()) makeSlam(options);
-  if (!options.get<std::string>("application").empty()) startApplication(options);
   for (const char* const option : {"mode", "speed", "first", "count", "timeout"}) {
     protocol_.set(option, options.get<gslam::Svar>(option));
   }
   player_ = std::make_unique<gslam::Player>(*dataset_, messenger_);
 }
 
-void Session::makeSlam(const Options& options) {
+void Session::findSlam(const Options& options) {
+  const StdoutGuard guard;  // what plugins print
+  if (!options.get<std::string>("application").empty()) startApplication(options);
   const auto name = options.get<std::string>("slam");
+  if (name.empty()) return;
   const bool is_isolated = options.get<bool>("isolate");
+  // Should it fail.
+  protocol_.set("slam", gslam::Svar::object({{"given", name}, {"isolated", is_isolated}}));
   if (is_isolated) {
     makeIsolatedSlam(options);
   } else {
@@ -175,7 +178,6 @@ void Session::makeSlam(const Options& options) {
     checkSensors(factory_);
   }
   parameters_ = completeOption(factory_.parameters, options, "set");
-  if (!is_isolated) slam_ = gslam::makeSlam(factory_);
   protocol_.set("slam", gslam::Svar::object({{"given", name},
                                              {"name", factory_.name},
                                              {"plugin", pluginOfSlam(plugins_, factory_.name)},
@@ -183,14 +185,20 @@ void Session::makeSlam(const Options& options) {
                                              {"isolated", is_isolated}}));
 }
 
-// Its plugin is loaded in the other process alone, whose crash is a failure like others.
+void Session::makeSlam() {
+  const StdoutGuard guard;
+  if (factory_.make != nullptr && isolated_ == nullptr) slam_ = gslam::makeSlam(factory_);
+}
+
+// A crash of the other process is a failure like others. Its plugin is not loaded for it in this
+// one, but may be there, where all were looked through for the dataset's format.
 void Session::makeIsolatedSlam(const Options& options) {
   gslam::IsolationOptions isolation;
   isolation.slam = options.get<std::string>("slam");
   const CallLimits limits = callLimits(options);
   isolation.configure_limit = limits.configure;
   isolation.feed_limit = limits.feed;
-  isolation.finish_limit = limits.finish;
+  isolation.map_limit = isolation.finish_limit = limits.finish;
   isolated_ = std::make_shared<gslam::IsolatedSlam>(isolation);
   factory_ = isolated_->factory();
   checkSensors(factory_);
@@ -292,12 +300,22 @@ void printResult(const gslam::Svar& result, bool has_slam) {
               << result.get<double>("length_m", 0) << " m\n";
   }
   if (count("invalid_poses") > 0) {
-    std::cout << "poses that were not finite: " << count("invalid_poses") << '\n';
+    std::cout << "poses that were not finite, or of no frame that was fed: "
+              << count("invalid_poses") << '\n';
   }
-  if (end != endName(gslam::PlayEnd::failed)) return;
+  if (count("wrong_stamps") > 0) {
+    std::cout << "poses whose stamp is not their frame's, which counts: " << count("wrong_stamps")
+              << '\n';
+  }
   std::cout.flush();
+}
+
+void printFailure(const gslam::Svar& result) {
+  if (result.get<std::string>("end") != endName(gslam::PlayEnd::failed)) return;
   std::cerr << "failed";
-  if (frames > 0) std::cerr << " at frame " << count("last_frame");
+  if (result.get<std::uint64_t>("frames", 0) > 0) {
+    std::cerr << " at frame " << result.get<std::uint64_t>("last_frame", 0);
+  }
   std::cerr << ": " << result.get<std::string>("failure", "") << '\n';
 }
 

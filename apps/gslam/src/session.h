@@ -29,9 +29,14 @@ class Session {
   /// Declares the options, before they are read.
   static void declare(Options& options);
 
-  /// Opens the dataset and makes the SLAM system.
-  /// @throws Error when either fails, or the dataset lacks a sensor that the system needs
+  /// Opens the dataset. @throws Error
   explicit Session(const Options& options);
+  /// Loads the plugin of the SLAM system, checks its parameters, and starts the application; each
+  /// where it was asked for. An isolated system is made, too.
+  /// @throws Error, also when the dataset lacks a sensor that the system needs
+  void findSlam(const Options& options);
+  /// Makes the SLAM system that findSlam() found. @throws what its constructor throws
+  void makeSlam();
 
   bool hasSlam() const { return slam_ != nullptr; }            ///< whether there is a system
   gslam::Dataset& dataset() { return *dataset_; }              ///< as opened
@@ -60,7 +65,6 @@ class Session {
   void stop();
 
  private:
-  void makeSlam(const Options& options);
   void makeIsolatedSlam(const Options& options);
   void startApplication(const Options& options);
   void checkSensors(const gslam::SlamFactory& factory) const;
@@ -82,8 +86,10 @@ class Session {
 int statusOf(const gslam::PlayReport& report);
 /// How it went, for machines.
 gslam::Svar describe(const gslam::RunResult& result);
-/// How that went, for people, on stdout; what failed on stderr.
+/// How that went, for people, on stdout.
 void printResult(const gslam::Svar& result, bool has_slam);
+/// What failed, on stderr, if it did.
+void printFailure(const gslam::Svar& result);
 
 }  // namespace app
 

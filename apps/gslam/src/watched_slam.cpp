@@ -19,12 +19,15 @@ std::string causeOf(const gslam::IsolationFailure& failure) {
       return "timeout";
     case Kind::out_of_memory:
       return "memory";
+    case Kind::garbage:
+      return "garbage";
     default:
       return "lost";
   }
 }
 
-// Of the exception in work.
+}  // namespace
+
 std::string causeOfException() {
   try {
     throw;
@@ -40,8 +43,6 @@ std::string causeOfException() {
     return "exception";
   }
 }
-
-}  // namespace
 
 WatchedSlam::WatchedSlam(std::shared_ptr<gslam::Slam> slam,
                          std::shared_ptr<gslam::ProcessTree> tree, const RunRecorders& recorders)
@@ -75,6 +76,7 @@ void WatchedSlam::configure(const gslam::SlamSetup& setup) {
 }
 
 void WatchedSlam::feed(const std::shared_ptr<const gslam::Frame>& frame) {
+  recorders_.live.expect(*frame);
   recorders_.board.frame = frame->id;
   recorders_.board.has_frame = true;
   feeder_ = std::this_thread::get_id();
@@ -108,15 +110,30 @@ void WatchedSlam::end() {
   }
 }
 
+void WatchedSlam::write(const gslam::TrackedPose& pose) {
+  recorders_.live.add(pose);
+  recorders_.board.invalid_poses = recorders_.live.invalidCount();
+  recorders_.board.wrong_stamps = recorders_.live.wrongStamps();
+}
+
+// Behind those that wait, so that they stay in order.
 void WatchedSlam::takePose(const gslam::TrackedPose& pose) {
-  if (isInside()) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (isInside() || !poses_.empty()) {
     poses_.push_back(pose);
   } else {
-    recorders_.live.add(pose);
+    write(pose);
   }
 }
 
+// The last that is written of a frame counts: what waits must not be older than what is written.
 void WatchedSlam::takeFrame(const gslam::FrameTime& frame) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (gslam::FrameTime& waiting : frames_) {
+    if (waiting.frame != frame.frame) continue;
+    waiting = frame;
+    return;
+  }
   if (isInside()) {
     frames_.push_back(frame);
   } else {
@@ -125,8 +142,9 @@ void WatchedSlam::takeFrame(const gslam::FrameTime& frame) {
 }
 
 void WatchedSlam::writeWaiting() {
+  const std::lock_guard<std::mutex> lock(mutex_);
   feeder_ = std::thread::id();
-  for (const gslam::TrackedPose& pose : poses_) recorders_.live.add(pose);
+  for (const gslam::TrackedPose& pose : poses_) write(pose);
   for (const gslam::FrameTime& frame : frames_) recorders_.frames.add(frame);
   poses_.clear();
   frames_.clear();

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <utility>
@@ -26,9 +27,14 @@ struct RunRecorders {
   FrameLog& frames;
 };
 
+/// Why a call failed, from the exception in work: "exception", or of an isolated system "signal",
+/// "exit", "timeout", "memory", "garbage" (it sent what is no answer), "lost" (it is gone, nobody
+/// knows how).
+std::string causeOfException();
+
 /// A SLAM system around one that is measured: writes its poses, what became of its frames, and on
-/// the board where it is. Writing waits until feed() has returned, so that it is not measured;
-/// poses that come at other times are written at once.
+/// the board where it is. What comes in the thread of feed() is written when that has returned, so
+/// that writing is not measured; what other threads publish, at once.
 class WatchedSlam : public gslam::Slam {
  public:
   /// @param slam       that is watched
@@ -50,13 +56,13 @@ class WatchedSlam : public gslam::Slam {
   void end();
 
   const gslam::MeasuredSlam& measured() const { return measured_; }
-  /// What made a call fail: "exception", or of an isolated system "signal", "exit", "timeout",
-  /// "memory"; empty: none did.
+  /// What made a call fail, as causeOfException() says; empty: none did.
   const std::string& cause() const { return cause_; }
 
  private:
   template <class Call>
   void watch(RunPhase phase, const Call& call);
+  void write(const gslam::TrackedPose& pose);
   void takePose(const gslam::TrackedPose& pose);
   void takeFrame(const gslam::FrameTime& frame);
   void writeWaiting();
@@ -67,6 +73,7 @@ class WatchedSlam : public gslam::Slam {
   std::string cause_;
   std::atomic<std::thread::id> feeder_{};  // that is in feed(); else none
   // What waits for the end of feed().
+  std::mutex mutex_;
   std::vector<gslam::TrackedPose> poses_;
   std::vector<gslam::FrameTime> frames_;
   gslam::Subscriber subscriber_;  // last: ends before the rest goes

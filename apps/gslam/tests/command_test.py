@@ -84,6 +84,8 @@ class WrongUse(Folder):
     def test_options_that_would_do_nothing(self):
         self.check(gslam("play", "carousel", "--set", "gravity=1"), 2, err="--slam")
         self.check(gslam("play", "carousel", "--isolate"), 2, err="--slam")
+        self.check(gslam("play", "carousel", "-s", "dead_reckoning", "--timeout", 1), 2,
+                   err="--timeout: needs --isolate")
 
     def test_values_out_of_range(self):
         self.check(gslam("play", "-d", "carousel", "--speed", "-1"), 2, err="speed")

@@ -90,8 +90,18 @@ class Json(Folder):
         self.assertEqual([one["length_m"] for one in result["segments"]], [10, 20])
         self.assertGreater(result["score"]["value"], 0)
 
+    def test_a_run_is_claimed_only_for_its_own_files(self):
+        own = json.dumps({"program": "gslam run", "seed": 3})
+        for text, name in [(own, "mine.txt"), ("no JSON", "trajectory.txt"),
+                           ('{"seed": 3}', "trajectory.txt")]:
+            self.write("run.json", text)
+            est = self.write(name, tum(stamps(600)))
+            protocol = self.figures("--ref", self.ref, "--est", est)["protocol"]
+            self.assertNotIn("run", protocol)
+            self.assertEqual(protocol["poses_used"], "as in the file")
+
     def test_the_protocol_says_what_was_compared(self):
-        self.write("run.json", json.dumps({"slam": "some", "seed": 3}))
+        self.write("run.json", json.dumps({"program": "gslam run", "slam": "some", "seed": 3}))
         est = self.write("trajectory.txt", tum(stamps(600)))
         protocol = self.figures("--ref", self.ref, "--est", est)["protocol"]
         self.assertEqual(protocol["reference"]["format"], "tum")

@@ -22,9 +22,9 @@ SHORT = ["carousel", "--dataset-param.duration", 2]  # 41 frames in 2 s
 FRAMES = 41
 
 
-def gslam(*arguments, timeout=60):
+def gslam(*arguments, timeout=60, **environment):
     return subprocess.run([GSLAM, *map(str, arguments)], capture_output=True, text=True,
-                          timeout=timeout)
+                          timeout=timeout, env={**os.environ, **environment})
 
 
 def wait_until(condition):
@@ -64,9 +64,9 @@ class Runs(unittest.TestCase):
         settings = [f"trajectory={self.truths.get(truth, truth)}", *settings]
         return ["run", *dataset, "--slam", "replay", "--out", self.out, *options, "--set", *settings]
 
-    def run_it(self, *settings, status=0, err="", **more):
+    def run_it(self, *settings, status=0, err="", environment={}, **more):
         """Runs, and gives metrics.json."""
-        result = gslam(*self.arguments(*settings, **more))
+        result = gslam(*self.arguments(*settings, **more), **environment)
         self.assertEqual(result.returncode, status, result.stdout + result.stderr)
         self.assertIn(err, result.stderr)
         self.stdout = result.stdout
@@ -157,6 +157,150 @@ class Accuracy(Runs):
         self.assertEqual(metrics["cost"]["frames"]["results"], 6)
         self.assertIn("no ground truth", self.stdout)
         self.assertFalse((self.out / "groundtruth.txt").exists())
+
+
+class BadManners(Runs):
+    def test_poses_that_are_not_finite_are_lost(self):
+        metrics = self.run_it("losses=10-19:nan")
+        self.assertEqual(metrics["coverage"]["tracked_frames"], FRAMES - 10)
+        self.assertEqual(metrics["association"]["pairs"], FRAMES - 10)
+        self.assertEqual(self.json("run.json")["result"]["invalid_poses"], 10)
+        self.assertEqual([frame["state"] for frame in self.frames()].count("lost"), 10)
+        self.assertIn("not finite, or of no frame that was fed: 10", self.stdout)
+        self.run_it("losses=10-19:nan", "fault=abort", "fault_at=25", status=1)
+        self.assertEqual(self.json("run.json")["result"]["invalid_poses"], 10)
+
+    def test_poses_of_no_frame_count_for_nothing(self):
+        fair = self.run_it("noise_m=0.1")
+        more = self.run_it("noise_m=0.1", "strays=20")
+        self.assertEqual(len(self.poses()), FRAMES)
+        self.assertEqual(len(self.poses("trajectory_final.txt")), FRAMES)
+        for part in ["score", "ape", "coverage"]:
+            self.assertEqual(more[part], fair[part])
+        result = self.json("run.json")["result"]
+        self.assertEqual((result["poses"], result["invalid_poses"]), (FRAMES, 20 * FRAMES))
+
+    def test_a_pose_has_the_stamp_of_its_frame(self):
+        fair = self.run_it("noise_m=0.1")
+        wrong = self.run_it("noise_m=0.1", "stamp_error_s=-0.7")
+        self.assertEqual(wrong["ape"], fair["ape"])
+        self.assertEqual(wrong["final"]["ape"], fair["final"]["ape"])
+        self.assertEqual(self.json("run.json")["result"]["wrong_stamps"], FRAMES)
+
+    def test_no_answer_of_another_thread_is_lost(self):
+        for latency in [0.001, 0.005, 0.02]:
+            with self.subTest(latency):
+                metrics = self.run_it("cpu_ms=1", f"latency_ms={latency}")
+                self.assertEqual(metrics["coverage"]["tracked_frames"], FRAMES)
+                self.assertEqual(len(self.poses()), FRAMES)
+
+
+class Folders(Runs):
+    """What `gslam run` did not write stays."""
+
+    def test_a_folder_with_other_files_is_refused(self):
+        self.out.mkdir()
+        truth = self.out / "groundtruth.txt"
+        truth.write_text("precious")
+        for options in [[], ["--repeat", 2]]:
+            result = gslam(*self.arguments(options=options))
+            self.assertEqual((result.returncode, result.stdout), (1, ""))
+            self.assertIn("has 'groundtruth.txt', but no run.json of `gslam run`", result.stderr)
+        self.assertEqual([path.name for path in self.out.iterdir()], ["groundtruth.txt"])
+        self.assertEqual(truth.read_text(), "precious")
+        # A run.json of another program changes nothing.
+        for text in ['{"slam": "x"}', "no JSON", "[]", '{"program": 1}']:
+            (self.out / "run.json").write_text(text)
+            self.assertEqual(gslam(*self.arguments()).returncode, 1)
+            self.assertEqual((self.out / "run.json").read_text(), text)
+            self.assertEqual(truth.read_text(), "precious")
+
+    def test_other_files_beside_results_stay(self):
+        self.run_it(options=["--repeat", 2])
+        notes = [self.out / "notes.txt", self.out / "2" / "notes.txt"]
+        for path in notes:
+            path.write_text("precious")
+        foreign = self.out / "3" / "1"
+        foreign.mkdir(parents=True)
+        (foreign / "map.gmap").write_text("precious")
+        (self.out / "3" / "frames.csv").write_text("precious")
+        result = gslam(*self.arguments(options=["--repeat", 3]))
+        self.assertEqual((result.returncode, result.stdout), (1, ""))
+        self.assertTrue((self.out / "2" / "metrics.json").exists())  # nothing was begun
+        self.run_it()
+        self.assertEqual(sorted(path.name for path in (self.out / "2").iterdir()), ["notes.txt"])
+        for path in [*notes, foreign / "map.gmap", self.out / "3" / "frames.csv"]:
+            self.assertEqual(path.read_text(), "precious")
+        self.assertFalse((self.out / "1").exists())
+
+    def test_the_dataset_is_no_folder_for_results(self):
+        data = self.out.parent / "data"
+        made = gslam("play", "synthetic://room?frames=3&width=64&height=48", "--save", data)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        before = {path: path.read_bytes() for path in data.rglob("*") if path.is_file()}
+        for mark in [False, True]:
+            if mark:
+                (data / "run.json").write_text('{"program": "gslam run"}')
+            result = gslam("run", data, "--slam", "replay", "--out", data, "--set",
+                           f"trajectory={self.truths['short']}")
+            self.assertNotEqual(result.returncode, 0)
+            self.assertIn("run.json of" if not mark else "--out: is the dataset", result.stderr)
+            for path, content in before.items():
+                self.assertEqual(path.read_bytes(), content)
+
+    def test_a_run_that_was_killed_leaves_a_folder_that_can_be_used(self):
+        for options in [[], ["--repeat", 2]]:
+            with self.subTest(options):
+                shutil.rmtree(self.out, ignore_errors=True)
+                process = subprocess.Popen(
+                    [GSLAM, *map(str, self.arguments("delay_ms=100", options=options))],
+                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                self.addCleanup(process.kill)
+                path = self.out / "1" / "frames.csv" if options else self.out / "frames.csv"
+                wait_until(path.exists)
+                worker = worker_of(process)
+                process.kill()
+                process.wait(30)
+                wait_until(lambda: not pathlib.Path(f"/proc/{worker}").exists())
+                self.run_it(options=options)
+
+
+class Making(Runs):
+    """What fails before the first call: GSLAM_REPLAY_FAULT is for the constructor."""
+
+    def check(self, fault, options, text):
+        self.run_it()  # whose results are not to stay
+        metrics = self.run_it(options=options, status=1, err=text,
+                              environment={"GSLAM_REPLAY_FAULT": fault})
+        result = self.json("run.json")["result"]
+        self.assertEqual(result["end"], "failed")
+        self.assertIn(text, result["failure"])
+        self.assertEqual(metrics["coverage"]["total_frames"], FRAMES)
+        self.assertEqual(metrics["coverage"]["frames"], 0)
+        self.assertEqual(metrics["score"]["value"], 0)
+        self.assertNotIn("no ground truth", metrics["reason"])
+        self.assertFalse((self.out / "trajectory.txt").exists())
+        return result["cause"]
+
+    def test_a_constructor_fails(self):
+        for fault, cause, text in [("exit", "exit", "with status 7"), ("abort", "signal", "SIGABRT"),
+                                   ("throw", "exception", "as 'fault' asks for")]:
+            for options in [[], ["--json"]]:
+                with self.subTest(fault=fault, options=options):
+                    self.assertEqual(self.check(fault, options, text), cause)
+        self.assertEqual(self.check("abort", ["--isolate"], "SIGABRT"), "signal")
+
+    def test_a_constructor_hangs(self):
+        for options in [[], ["--isolate"]]:
+            with self.subTest(options):
+                self.assertEqual(self.check("hang", ["--timeout", 1, *options], "within 1000 ms"),
+                                 "timeout")
+
+    def test_repeats_count_it(self):
+        summary = self.run_it(options=["--repeat", 2], status=1, err="SIGABRT",
+                              environment={"GSLAM_REPLAY_FAULT": "abort"})
+        self.assertEqual(summary["coverage"]["frames"]["mean"], 0)
+        self.assertEqual(summary["score"]["value"]["count"], 2)
 
 
 class Coverage(Runs):
@@ -282,6 +426,20 @@ class Failures(Runs):
                     self.assertEqual(result["cause"], cause)
                     if fault != "throw":
                         self.assertIn("in feed() of frame 20", result["failure"])
+
+    def test_the_reason_is_on_stderr_beside_json(self):
+        result = gslam(*self.arguments("fault=signal", "fault_at=5", options=["--json"]))
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("SIGSEGV", result.stderr)
+        self.assertEqual(json.loads(result.stdout), self.json("metrics.json"))
+        result = gslam(*self.arguments("fault=signal", "fault_at=5",
+                                       options=["--json", "--repeat", 2]))
+        self.assertEqual(result.stderr.count("SIGSEGV"), 2)
+        self.assertEqual(json.loads(result.stdout), self.json("metrics.json"))
+
+    def test_cost_up_to_a_crash(self):
+        cost = self.run_it("cpu_ms=10", "fault=abort", "fault_at=5", status=1)["cost"]
+        self.assertGreaterEqual(cost["cpu_s"], 0.04)  # counted in ticks of 10 ms
 
     def test_hangs(self):
         for options in [[], ["--isolate"]]:
@@ -412,7 +570,8 @@ class Repeats(Runs):
         self.assertIsNone(summary["alignment"]["rotation"])  # a mean would mean nothing
         # Those of fewer runs are not mixed with these.
         self.run_it(options=["--repeat", 1])
-        self.assertEqual(sorted(path.name for path in self.out.iterdir()), ["1", "metrics.json"])
+        self.assertEqual(sorted(path.name for path in self.out.iterdir()),
+                         ["1", "metrics.json", "run.json"])
         self.run_it()
         self.assertFalse((self.out / "1").exists())
 
@@ -420,7 +579,10 @@ class Repeats(Runs):
         summary = self.run_it("fault=abort", "fault_at=5", options=["--repeat", 2], status=1)
         self.assertEqual((summary["runs"]["count"], summary["runs"]["failed"]), (2, 2))
         self.assertIn("SIGABRT", summary["runs"]["failures"][1]["failure"])
-        self.assertNotIn("ape", summary)
+        self.assertEqual(summary["coverage"]["tracked_frames"]["max"], 5)
+        self.assertEqual(summary["coverage"]["total_frames"]["min"], FRAMES)
+        one = json.loads((self.out / "2" / "metrics.json").read_text())
+        self.assertAlmostEqual(summary["score"]["value"]["mean"], one["score"]["value"] or 0)
         self.assertTrue((self.out / "2" / "trajectory.txt").exists())
 
 
@@ -445,6 +607,32 @@ class Interrupts(Runs):
         result = self.json("run.json")["result"]
         self.assertEqual((result["end"], result["cause"]), ("stopped", "interrupt"))
         self.assertEqual(self.json("metrics.json")["coverage"]["tracked_frames"], 5)
+
+    def test_in_the_first_moments(self):
+        for wait in [0.02, 0.05, 0.1, 0.15, 0.2, 0.3]:
+            with self.subTest(wait):
+                shutil.rmtree(self.out, ignore_errors=True)
+                process = subprocess.Popen(
+                    [GSLAM, *map(str, self.arguments("delay_ms=100"))],
+                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+                self.addCleanup(process.kill)
+                wait_until(lambda: worker_of(process))
+                time.sleep(wait)
+                process.send_signal(signal.SIGINT)
+                stdout, stderr = process.communicate(timeout=30)
+                self.assertEqual(process.returncode, 130, stdout + stderr)
+                self.assertTrue("before it began" in stderr or "stopped" in stdout, stdout + stderr)
+
+    def test_a_later_run_does_not_begin(self):
+        process = subprocess.Popen(
+            [GSLAM, *map(str, self.arguments("delay_ms=30", options=["--repeat", 9, "--json"]))],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.kill)
+        wait_until(lambda: (self.out / "1" / "metrics.json").exists())
+        process.send_signal(signal.SIGINT)
+        stdout, stderr = process.communicate(timeout=30)
+        self.assertEqual(process.returncode, 130)
+        self.assertGreaterEqual(json.loads(stdout)["runs"]["finished"], 1, stderr)
 
     def test_no_further_run_begins(self):
         process = subprocess.Popen(
@@ -475,6 +663,38 @@ class Real(Runs):
         self.assertEqual(metrics["coverage"]["tracked_frames"], frames - 10)
         # As many poses: the root mean square is off by 1 / sqrt(6 n) of itself (one sigma).
         bound = 4 / math.sqrt(6 * (frames - 10))
+        self.assertAlmostEqual(rmse / (0.05 * math.sqrt(3)), 1, delta=bound)
+
+    def follow(self, dataset, *settings, count=20, **more):
+        """Runs with the ground truth of a dataset on its first frames."""
+        dataset = pathlib.Path(DATA) / "sequences" / dataset
+        truth = self.out.parent / "truth.txt"
+        made = gslam("info", dataset, "--ground-truth", truth)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        options = ["--count", count, "--association", "interpolate", "--align", "none"]
+        return self.run_it(*settings, dataset=[dataset], truth=truth, options=options, **more)
+
+    def test_kitti(self):
+        metrics = self.follow("kitti_06", "noise_m=0.05", "losses=5-9")
+        self.check(metrics, 20, 15)
+
+    def test_euroc(self):
+        metrics = self.follow("euroc_V1_01_easy", "noise_m=0.05")
+        tracked = metrics["coverage"]["tracked_frames"]
+        self.check(metrics, 20, tracked)
+        self.assertGreater(tracked, 10)
+
+    def test_7scenes(self):
+        metrics = self.follow("7scenes_redkitchen", "noise_m=0.05", "fault=abort", "fault_at=10",
+                              status=1)
+        self.assertEqual(metrics["coverage"]["tracked_frames"], 10)
+
+    def check(self, metrics, frames, tracked):
+        self.assertEqual(metrics["coverage"]["total_frames"], frames)
+        self.assertEqual(metrics["coverage"]["tracked_frames"], tracked)
+        self.assertEqual(metrics["association"]["pairs"], tracked)
+        rmse = metrics["ape"]["translation"]["rmse"]
+        bound = 4 / math.sqrt(6 * tracked)
         self.assertAlmostEqual(rmse / (0.05 * math.sqrt(3)), 1, delta=bound)
 
 

@@ -14,6 +14,10 @@ namespace gslam {
 inline namespace v1 {
 namespace {
 
+bool isFinite(const SE3d& pose) {
+  return std::all_of(pose.data(), pose.data() + 7, [](double x) { return std::isfinite(x); });
+}
+
 std::int64_t now() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
              std::chrono::steady_clock::now().time_since_epoch())
@@ -109,7 +113,9 @@ class MeasuredSlam::Impl {
         return;
       }
       entry.time.has_result = true;
-      entry.time.state = pose.state;
+      // As the Recorder has it.
+      const bool is_invalid = hasPose(pose.state) && !isFinite(pose.T_world_body);
+      entry.time.state = is_invalid ? TrackingState::lost : pose.state;
       entry.time.wall_ms = 1e-6 * double(time - entry.begin);
       charge(entry);
       if (!entry.is_fed) return;

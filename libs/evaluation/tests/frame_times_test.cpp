@@ -7,6 +7,7 @@
 #include <gslam/evaluation/frame_times.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <thread>
 
@@ -95,6 +96,25 @@ TEST(MeasuredSlam, handsEverythingOn) {
   EXPECT_GE(slam.configureSeconds(), 0.02);
   EXPECT_GE(slam.finishSeconds(), 0.01);
   EXPECT_LT(slam.finishSeconds(), slam.configureSeconds() + 1);
+}
+
+TEST(MeasuredSlam, aPoseThatIsNotFiniteIsLost) {
+  MeasuredSlam slam(
+      std::make_shared<ToldSlam>([](const Frame& fed, const gslam::Publisher<TrackedPose>& pose) {
+        TrackedPose bad = poseOf(fed.id);
+        gslam::Vec3d place{};
+        if (fed.id > 0) place[fed.id - 1] = fed.id == 2 ? -INFINITY : std::nan("");
+        bad.T_world_body = gslam::SE3d(gslam::SO3d(), place);
+        pose.publish(bad);
+      }));
+  slam.configure({});
+  for (std::uint64_t id = 0; id <= 3; ++id) slam.feed(frame(id));
+  const std::vector<FrameTime> frames = slam.frames();
+  EXPECT_EQ(frames[0].state, TrackingState::tracking);
+  for (std::size_t i = 1; i <= 3; ++i) {
+    EXPECT_TRUE(frames[i].has_result);
+    EXPECT_EQ(frames[i].state, TrackingState::lost) << i;
+  }
 }
 
 TEST(MeasuredSlam, refusesNull) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <memory>
@@ -211,6 +212,42 @@ TEST_F(Replay, LosesTrackWhereItIsTold) {
                                              S::tracking, S::tracking, S::tracking));
   EXPECT_EQ(poses_[9].frame, 9U);
   EXPECT_EQ(poses_[10].frame, 13U);
+}
+
+TEST_F(Replay, SaysWhatIsNotToBeBelieved) {
+  run(gslam::Svar::object({{"losses", "1:nan"}, {"strays", 2}, {"stamp_error_s", 0.5}}), 3);
+  ASSERT_EQ(poses_.size(), 9U);
+  for (std::size_t i = 0; i < 9; ++i) {
+    EXPECT_EQ(poses_[i].stamp,
+              std::int64_t(i / 3) * kStep + 500000000 + std::int64_t(i % 3) * 1000000);
+    EXPECT_EQ(poses_[i].frame < 3, i % 3 == 0);
+    EXPECT_EQ(std::isnan(poses_[i].T_world_body.translation()[0]), i / 3 == 1) << i;
+    EXPECT_EQ(poses_[i].state, TrackingState::tracking);
+  }
+}
+
+TEST_F(Replay, BeginsAnewWhenItIsConfiguredAgain) {
+  run(gslam::Svar::object({{"keyframe_every", 1}, {"corrects", true}, {"start_after", 1}}), 3);
+  poses_.clear();
+  gslam::SlamSetup setup;
+  setup.parameters = replay::defaultParameters().merged(gslam::Svar::object(
+      {{"trajectory", truth_file_.path()}, {"keyframe_every", 1}, {"start_after", 1}}));
+  setup.messenger = messenger_;
+  slam_->configure(setup);
+  feed(0);
+  slam_->finish();
+  ASSERT_EQ(poses_.size(), 1U);  // nothing of before is corrected
+  EXPECT_EQ(poses_[0].state, TrackingState::starting);
+  EXPECT_EQ(slam_->map()->keyframes().size(), 0U);
+}
+
+TEST_F(Replay, FailsInItsConstructor) {
+  ASSERT_EQ(setenv("GSLAM_REPLAY_FAULT", "throw", 1), 0);
+  EXPECT_THROW(replay::replayFactory().make(), gslam::Error);
+  ASSERT_EQ(setenv("GSLAM_REPLAY_FAULT", "laugh", 1), 0);
+  EXPECT_THROW(replay::replayFactory().make(), gslam::ArgumentError);
+  ASSERT_EQ(unsetenv("GSLAM_REPLAY_FAULT"), 0);
+  EXPECT_NE(replay::replayFactory().make(), nullptr);
 }
 
 TEST(Losses, AreRefusedWhereTheyMeanNothing) {

@@ -60,7 +60,8 @@ struct FrameTime {
   double cpu_ms_before = 0;
   std::uint64_t allocations_before = 0, allocated_bytes_before = 0;
   /// @}
-  TrackingState state = TrackingState::lost;  ///< as the first pose of this frame says
+  TrackingState state = TrackingState::lost;  ///< as the first pose of this frame says; lost when
+                                              ///< that is not finite
   std::size_t corrections = 0;                ///< further poses of this frame
 };
 
