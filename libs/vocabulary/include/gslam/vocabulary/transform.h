@@ -70,6 +70,19 @@ inline void findNodes(const TreeView& tree, const Descriptors& descriptors, std:
   memory.last_passed = *std::max_element(memory.passed.begin(), memory.passed.end());
 }
 
+// Puts words in place of leaves, while the memory of their weights is fetched.
+inline void findWeights(const TreeView& tree, std::vector<std::uint32_t>& nodes) {
+  for (std::uint32_t& node : nodes) {
+    node = wordOf(tree, node);
+    if (node == kNone) continue;
+    if (tree.weight_numbers != nullptr) {
+      fetch(tree.weight_numbers + node);
+    } else {
+      fetch(tree.weights + node);
+    }
+  }
+}
+
 // The words of all descriptors that have a weight, ascending, with their values.
 inline void gatherWords(const Vocabulary& vocabulary, const std::vector<std::uint64_t>& items,
                         BowVector& bow) {
@@ -133,9 +146,10 @@ inline void transformTo(const Vocabulary& vocabulary, const Descriptors& descrip
   findNodes(tree, descriptors, levels_up, features != nullptr, memory);
   memory.by_word.resize(descriptors.count);
   memory.by_node.resize(descriptors.count);
+  findWeights(tree, memory.nodes);
   std::size_t count = 0;
   for (std::size_t i = 0; i < descriptors.count; ++i) {
-    const std::uint32_t word = wordOf(tree, memory.nodes[i]);
+    const std::uint32_t word = memory.nodes[i];
     if (word == kNone || !(weightOf(tree, word) > 0)) continue;
     memory.by_word[count] = keyed(word, static_cast<std::uint32_t>(i));
     if (features != nullptr) {

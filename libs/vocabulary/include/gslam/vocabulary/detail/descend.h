@@ -21,6 +21,9 @@ namespace detail {
 // As many as fit the first cache together with what is kept of them.
 constexpr std::size_t kTogether = 256;
 
+// Bytes that processors have there at least. Who fetches what is there already only loses time.
+constexpr std::size_t kSecondCache = std::size_t(1) << 20;
+
 inline void fetch(const void* address) noexcept {
 #if defined(__GNUC__) || defined(__clang__)
   __builtin_prefetch(address);
@@ -32,7 +35,8 @@ inline void fetch(const void* address) noexcept {
 // Up to kTogether descriptors.
 class Descent {
  public:
-  Descent(const TreeView& tree, ChooseFunction choose) : tree_(tree), choose_(choose) {}
+  Descent(const TreeView& tree, ChooseFunction choose)
+      : tree_(tree), choose_(choose), is_large_(tree.node_count * tree.stride > kSecondCache) {}
 
   // To the leaves; `nodes` gets these, and `passed` the node at level `level` on the way (or the
   // leaf, where that is above), unless it is null. Level 0 is the root. In a damaged file, which
@@ -71,6 +75,7 @@ class Descent {
       visits_[kept] = Visit{visits_[i].query, descriptorOf(tree_, children.first), children.count,
                             children.first};
       indices_[kept] = index;
+      if (is_large_) fetchFar(visits_[kept], tree_.stride);
       fetch(tree_.links + children.first);
       fetch(tree_.child_counts + children.first);
       ++kept;
@@ -80,6 +85,7 @@ class Descent {
 
   const TreeView& tree_;
   const ChooseFunction choose_;
+  const bool is_large_;    // whether rows are far away, so that they are fetched a level ahead
   std::size_t count_ = 0;  // of those on their way
   std::uint32_t indices_[kTogether];
   Visit visits_[kTogether];

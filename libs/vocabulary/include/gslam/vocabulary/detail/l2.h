@@ -188,6 +188,15 @@ inline void chooseFloatScalar(const DescriptorFormat& format, std::size_t stride
     }                                                                                             \
   }
 
+// Loops over a few registers: rolled up they would be memory.
+#if defined(__clang__)
+#define GSLAM_DETAIL_UNROLL _Pragma("clang loop unroll(full)")
+#elif defined(__GNUC__)
+#define GSLAM_DETAIL_UNROLL _Pragma("GCC unroll 4")
+#else
+#define GSLAM_DETAIL_UNROLL
+#endif
+
 #if GSLAM_X86
 
 GSLAM_TARGET_SSE4
@@ -232,7 +241,7 @@ inline void sumSquaresSse4(const DescriptorFormat& format, const std::uint8_t* q
   std::size_t i = 0;
   for (; i + 4 <= format.size; i += 4) {
     const __m128 value = _mm_loadu_ps(values + i);
-    for (int c = 0; c < count; ++c) {
+    GSLAM_DETAIL_UNROLL for (int c = 0; c < count; ++c) {
       const __m128 difference =
           _mm_sub_ps(value, reader.load(rows + static_cast<std::size_t>(c) * stride, i));
       sums[c] = _mm_add_ps(sums[c], _mm_mul_ps(difference, difference));
@@ -295,7 +304,7 @@ inline void sumSquaresAvx2(const DescriptorFormat& format, const std::uint8_t* q
   std::size_t i = 0;
   for (; i + 8 <= format.size; i += 8) {
     const __m256 value = _mm256_loadu_ps(values + i);
-    for (int c = 0; c < count; ++c) {
+    GSLAM_DETAIL_UNROLL for (int c = 0; c < count; ++c) {
       const __m256 difference =
           _mm256_sub_ps(value, reader.load(rows + static_cast<std::size_t>(c) * stride, i));
       sums[c] = _mm256_fmadd_ps(difference, difference, sums[c]);
@@ -354,7 +363,7 @@ inline void sumSquaresAvx512(const DescriptorFormat& format, const std::uint8_t*
     const std::size_t left = format.size - i;
     const auto mask = static_cast<__mmask16>(left >= 16 ? 0xFFFFu : (1u << left) - 1u);
     const __m512 value = _mm512_maskz_loadu_ps(mask, values + i);
-    for (int c = 0; c < count; ++c) {
+    GSLAM_DETAIL_UNROLL for (int c = 0; c < count; ++c) {
       const __m512 difference =
           _mm512_sub_ps(value, reader.load(rows + static_cast<std::size_t>(c) * stride, i, mask));
       sums[c] = _mm512_fmadd_ps(difference, difference, sums[c]);
@@ -404,7 +413,7 @@ inline void sumSquaresNeon(const DescriptorFormat& format, const std::uint8_t* q
   std::size_t i = 0;
   for (; i + 4 <= format.size; i += 4) {
     const float32x4_t value = vld1q_f32(values + i);
-    for (int c = 0; c < count; ++c) {
+    GSLAM_DETAIL_UNROLL for (int c = 0; c < count; ++c) {
       const float32x4_t difference =
           vsubq_f32(value, reader.load(rows + static_cast<std::size_t>(c) * stride, i));
       sums[c] = vfmaq_f32(sums[c], difference, difference);
@@ -425,6 +434,7 @@ GSLAM_DETAIL_CHOOSE_FLOAT(Neon)
 #endif
 
 #undef GSLAM_DETAIL_CHOOSE_FLOAT
+#undef GSLAM_DETAIL_UNROLL
 
 // The kernels for descriptors of numbers.
 inline SimdKernel<ChooseFunction> floatKernel() {

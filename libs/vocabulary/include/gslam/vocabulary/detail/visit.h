@@ -33,10 +33,24 @@ using ChooseFunction = void (*)(const DescriptorFormat& format, std::size_t stri
 // How many visits ahead rows are fetched into the cache.
 constexpr std::size_t kFetchAhead = 8;
 
+// Into the first cache.
 inline void fetchRows(const Visit& visit, std::size_t stride) noexcept {
 #if defined(__GNUC__) || defined(__clang__)
   const std::uint8_t* const end = visit.rows + visit.count * stride;
   for (const std::uint8_t* line = visit.rows; line < end; line += 64) __builtin_prefetch(line);
+#else
+  (void)visit;
+  (void)stride;
+#endif
+}
+
+// Into the second cache, where all rows of a level have room.
+inline void fetchFar(const Visit& visit, std::size_t stride) noexcept {
+#if defined(__GNUC__) || defined(__clang__)
+  const std::uint8_t* const end = visit.rows + visit.count * stride;
+  for (const std::uint8_t* line = visit.rows; line < end; line += 64) {
+    __builtin_prefetch(line, 0, 2);
+  }
 #else
   (void)visit;
   (void)stride;
