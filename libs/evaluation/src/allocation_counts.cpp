@@ -40,7 +40,8 @@ using gslam_allocations::kTables;
 using gslam_allocations::Slot;
 using gslam_allocations::Table;
 
-constexpr auto kRelaxed = std::memory_order_relaxed;
+// So that whether something was changed meanwhile is read after all that it would change.
+constexpr auto kOrdered = std::memory_order_acquire;
 
 // The file that children inherit, mapped for good; null: there is none.
 std::atomic<const unsigned char*> shared_file(nullptr);
@@ -56,26 +57,26 @@ AllocationCounts countsOf(const Table& table) noexcept {
   const std::size_t used = std::size_t(table.used_slots.load(std::memory_order_acquire));
   for (std::size_t i = 0; i < std::min(used, gslam_allocations::kSlots); ++i) {
     const Slot& slot = table.slots[i];
-    counts.calls += slot.calls.load(kRelaxed);
-    counts.bytes += slot.bytes.load(kRelaxed);
-    counts.frees += slot.frees.load(kRelaxed);
-    given += slot.given.load(kRelaxed);
-    taken += slot.taken.load(kRelaxed);
+    counts.calls += slot.calls.load(kOrdered);
+    counts.bytes += slot.bytes.load(kOrdered);
+    counts.frees += slot.frees.load(kOrdered);
+    given += slot.given.load(kOrdered);
+    taken += slot.taken.load(kOrdered);
   }
   counts.live_blocks = std::int64_t(counts.calls - counts.frees);
   counts.live_bytes = std::int64_t(given - taken);
-  counts.peak_live_bytes = std::int64_t(table.peak.load(kRelaxed));
+  counts.peak_live_bytes = std::int64_t(table.peak.load(kOrdered));
   return counts;
 }
 
 AllocationCounts countsOf(const Ended& ended) noexcept {
   AllocationCounts counts;
-  counts.calls = ended.calls.load(kRelaxed);
-  counts.bytes = ended.bytes.load(kRelaxed);
-  counts.frees = ended.frees.load(kRelaxed);
+  counts.calls = ended.calls.load(kOrdered);
+  counts.bytes = ended.bytes.load(kOrdered);
+  counts.frees = ended.frees.load(kOrdered);
   counts.live_blocks = std::int64_t(counts.calls - counts.frees);
-  counts.live_bytes = std::int64_t(ended.given.load(kRelaxed) - ended.taken.load(kRelaxed));
-  counts.peak_live_bytes = std::int64_t(ended.peak.load(kRelaxed));
+  counts.live_bytes = std::int64_t(ended.given.load(kOrdered) - ended.taken.load(kOrdered));
+  counts.peak_live_bytes = std::int64_t(ended.peak.load(kOrdered));
   return counts;
 }
 
@@ -101,7 +102,7 @@ bool descends(const FileHeader& header, std::size_t index, std::uint64_t root) n
   std::uint64_t at = index + 1;
   for (std::size_t depth = 0; depth < kTables && at > 0 && at <= kTables; ++depth) {
     if (at == root) return true;
-    at = header.entries[at - 1].parent.load(kRelaxed);
+    at = header.entries[at - 1].parent.load(kOrdered);
   }
   return at == root;
 }
@@ -113,20 +114,20 @@ AllocationCounts sumOf(const unsigned char* file, std::uint64_t process,
   const std::size_t used = std::size_t(std::min<std::uint64_t>(header.used.load(), kTables));
   std::uint64_t root = 0;
   for (std::size_t i = 0; i < used; ++i) {
-    if (header.entries[i].process.load(kRelaxed) == process) root = i + 1;
+    if (header.entries[i].process.load(kOrdered) == process) root = i + 1;
   }
   AllocationCounts sum;
   if (root == 0) {
     if (process != own) return sum;
     sum = allocationCounts();
-    if (header.maker.load(kRelaxed) != own) return sum;
+    if (header.maker.load(kOrdered) != own) return sum;
     root = kMaker;
     add(sum, countsOf(header.ended));
   } else {
     sum.is_counted = true;
   }
   for (std::size_t i = 0; i < used; ++i) {
-    const bool is_any = header.entries[i].process.load(kRelaxed) != 0;
+    const bool is_any = header.entries[i].process.load(kOrdered) != 0;
     if (!is_any || !descends(header, i, root)) continue;
     add(sum, countsOf(tableAt(file, i)));
     add(sum, countsOf(tableAt(file, i).ended));
@@ -211,7 +212,6 @@ AllocationCounts allocationCountsOf(long process) noexcept {
   for (int i = 0; i < 100; ++i) {
     const std::uint64_t before = header.changes.load();
     sum = sumOf(file, std::uint64_t(process), std::uint64_t(own));
-    std::atomic_thread_fence(std::memory_order_acquire);
     if (before % 2 == 0 && header.changes.load() == before) break;
     ::sched_yield();
   }

@@ -154,7 +154,8 @@ class ResourceMonitor::Impl {
 
   void note(const ProcessUsage& usage) {
     last_ = usage;
-    if (usage.processes > 0) result_.rss_bytes = usage.rss_bytes;
+    // A process that is about to end has none any more, but still lives.
+    if (usage.rss_bytes > 0) result_.rss_bytes = usage.rss_bytes;
     result_.peak_rss_bytes = usage.peak_rss_bytes;
     result_.peak_sampled_rss_bytes = std::max(result_.peak_sampled_rss_bytes, usage.rss_bytes);
     result_.peak_pss_bytes = std::max(result_.peak_pss_bytes, usage.pss_bytes);
