@@ -83,6 +83,7 @@ def exact(house, folder, name):
     install(house.build, folder / "one", name)
     for path in sorted(files_below(folder / "one")):
         mine = re.search(rf"(gslam/{name}(\.h$|/)|GSLAM_{name}/|gslam_{name}\.pc$|libgslam_{name}\."
+                         rf"|lib/gslam/.*/gslam_{name}_[a-z]+/"
                          rf"|doc/libgslam-{name.replace('_', '-')}-dev/copyright$)", path)
         expect(mine, f"component {name} installs {path}")
     exported = "".join((folder / "one" / path).read_text(encoding="utf-8")

@@ -170,7 +170,7 @@ def wrong_dependency_in_the_plan(house, folder):
     source = changed_checkout(house, folder / "source")
     lists = source / "libs" / "svar" / "CMakeLists.txt"
     lists.write_text(lists.read_text(encoding="utf-8").replace(
-        "DEPENDS base 1.0", "DEPENDS base 1.0 messenger 1.0"), encoding="utf-8")
+        "DEPENDS base ", "DEPENDS messenger 1.0 base "), encoding="utf-8")
     result = attempt("cmake", "-S", source, "-B", source / "build", "-G", "Ninja")
     expect(result.returncode != 0, result.stdout)
     expect_in(["svar may not use messenger", "rooms.json"], result.stdout)

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gslam/core/trajectory_file.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
@@ -49,7 +50,7 @@ gslam::Trajectory madeTruth(int poses) {
 class File {
  public:
   File(const std::string& name, const std::string& text)
-      : path_(testing::TempDir() + "slam_replay_" + name) {
+      : path_(testing::TempDir() + "slam_replay_" + std::to_string(getpid()) + "_" + name) {
     std::ofstream(path_) << text;
   }
   File(const File&) = delete;

@@ -73,7 +73,8 @@ struct MemoryLimitOptions {
 /// Linux only: elsewhere the constructor throws Error.
 class GSLAM_EVALUATION_EXPORT MemoryLimit {
  public:
-  /// @param bytes  above 0
+  /// @param bytes    above 0
+  /// @param options  how
   /// @throws ArgumentError for 0; Error when neither can be done
   explicit MemoryLimit(std::uint64_t bytes, const MemoryLimitOptions& options = {});
   MemoryLimit(const MemoryLimit&) = delete;

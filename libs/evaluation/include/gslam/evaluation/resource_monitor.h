@@ -80,8 +80,8 @@ struct ResourceReport {
   /// Load of each core of the machine, 0 to 100, whoever made it; by the numbers of cores. A core
   /// that was off has 0. Empty where /proc/stat does not tell.
   std::vector<double> core_percent;
-  EnergyReport energy;
-  GpuReport gpu;
+  EnergyReport energy;                  ///< of the machine
+  GpuReport gpu;                        ///< of the machine
   std::size_t samples_taken = 0;        ///< all
   double monitor_cpu_seconds = 0;       ///< CPU that sampling took
   double overhead_percent = 0;          ///< of one core: 100 * monitor_cpu_seconds / seconds

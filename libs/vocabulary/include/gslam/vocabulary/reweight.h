@@ -36,7 +36,6 @@ inline Vocabulary withWeights(const Vocabulary& vocabulary, const WordCounts& co
 
 }  // namespace detail
 
-/// @{
 /// The same tree with the weights of other images: for tf-idf and idf log(N / n) of a word that is
 /// in n of N images (natural; those without descriptors count, too) and 0 of a word that is in
 /// none, for the others 1. All as in DBoW2. A word in all images has the weight 0 by this, as it
@@ -44,8 +43,6 @@ inline Vocabulary withWeights(const Vocabulary& vocabulary, const WordCounts& co
 /// @param vocabulary   whose words; not changed
 /// @param images       the descriptors of each
 /// @param parallel     threads; its grain does not matter, nor does their number for the result
-/// @param image_count  how many images the source has
-/// @param image        gives them, once each
 /// @throws ArgumentError when the vocabulary is empty, or there are no images, or an image has
 ///         descriptors of another kind or size, or a number that is not finite or over 1e15: it
 ///         names the image
@@ -58,6 +55,11 @@ inline Vocabulary reweighted(const Vocabulary& vocabulary, Span<const Descriptor
       images, parallel, [] { return true; }, counts);
   return detail::withWeights(vocabulary, counts);
 }
+/// The same from a source, one image after the other.
+/// @param vocabulary   whose words; not changed
+/// @param image_count  how many images the source has
+/// @param image        gives them, once each
+/// @throws ArgumentError as above
 inline Vocabulary reweighted(const Vocabulary& vocabulary, std::size_t image_count,
                              const ImageSource& image) {
   detail::requireWords(vocabulary);
@@ -66,7 +68,6 @@ inline Vocabulary reweighted(const Vocabulary& vocabulary, std::size_t image_cou
   for (std::size_t i = 0; i < image_count; ++i) counts.add(image(i), i);
   return detail::withWeights(vocabulary, counts);
 }
-/// @}
 
 }  // namespace v1
 }  // namespace gslam

@@ -17,7 +17,6 @@
 namespace gslam {
 inline namespace v1 {
 
-/// @{
 /// Trains a vocabulary by hierarchical k-means: the descriptors are split into K clusters, each of
 /// these again, and so on, L times.
 ///
@@ -45,8 +44,6 @@ inline namespace v1 {
 /// than fit others may stay unseen, and become no words of their own.
 ///
 /// @param images       the descriptors of each; some images may have none
-/// @param image_count  how many images the source has
-/// @param image        gives them
 /// @param options      what to make
 /// @param report       unless null, is told what happened
 /// @return the vocabulary; an empty one when the progress callback ended the training
@@ -62,6 +59,13 @@ inline Vocabulary trainVocabulary(Span<const Descriptors> images,
   detail::Training training(options, report != nullptr ? *report : unread);
   return detail::trainFromMemory(images, training);
 }
+/// The same from a source, of more descriptors than fit the memory: see above.
+/// @param image_count  how many images the source has
+/// @param image        gives them; some may have no descriptors
+/// @param options      what to make
+/// @param report       unless null, is told what happened
+/// @return the vocabulary; an empty one when the progress callback ended the training
+/// @throws ArgumentError as above
 inline Vocabulary trainVocabulary(std::size_t image_count, const ImageSource& image,
                                   const TrainingOptions& options = TrainingOptions(),
                                   TrainingReport* report = nullptr) {
@@ -69,7 +73,6 @@ inline Vocabulary trainVocabulary(std::size_t image_count, const ImageSource& im
   detail::Training training(options, report != nullptr ? *report : unread);
   return detail::StreamTraining(image_count, image, training).run();
 }
-/// @}
 
 }  // namespace v1
 }  // namespace gslam

@@ -170,7 +170,6 @@ inline void transformTo(const Vocabulary& vocabulary, const Descriptors& descrip
 
 }  // namespace detail
 
-/// @{
 /// The bag of words of an image: DBoW's transform(), with the same words, and the same values to
 /// the last bit.
 ///
@@ -182,20 +181,23 @@ inline void transformTo(const Vocabulary& vocabulary, const Descriptors& descrip
 /// @param vocabulary   where it is empty, so is the bag
 /// @param descriptors  of the image
 /// @param[out] bow     keeps its memory
-/// @param memory       to work in; without it, it is made anew
+/// @param memory       to work in
 /// @throws ArgumentError when the descriptors are of another kind or size than the vocabulary's
 inline void transform(const Vocabulary& vocabulary, const Descriptors& descriptors, BowVector& bow,
                       TransformMemory& memory) {
   detail::transformTo(vocabulary, descriptors, 0, bow, nullptr, memory);
 }
+/// As above, with memory of its own.
+/// @param vocabulary   where it is empty, so is the bag
+/// @param descriptors  of the image
+/// @param[out] bow     keeps its memory
+/// @throws ArgumentError as above
 inline void transform(const Vocabulary& vocabulary, const Descriptors& descriptors,
                       BowVector& bow) {
   TransformMemory memory;
   transform(vocabulary, descriptors, bow, memory);
 }
-/// @}
 
-/// @{
 /// The bag of words of an image, and its features by node, in one pass.
 /// @param vocabulary     where it is empty, so is the bag
 /// @param descriptors    of the image
@@ -204,19 +206,25 @@ inline void transform(const Vocabulary& vocabulary, const Descriptors& descripto
 /// @param[out] bow       keeps its memory
 /// @param[out] features  keeps its memory. A leaf that is above the level stands for itself (DBoW
 ///                       leaves the node undefined then)
-/// @param memory         to work in; without it, it is made anew
+/// @param memory         to work in
 /// @throws ArgumentError when the descriptors are of another kind or size than the vocabulary's
 inline void transform(const Vocabulary& vocabulary, const Descriptors& descriptors,
                       std::uint32_t levels_up, BowVector& bow, FeatureVector& features,
                       TransformMemory& memory) {
   detail::transformTo(vocabulary, descriptors, levels_up, bow, &features, memory);
 }
+/// As above, with memory of its own.
+/// @param vocabulary     where it is empty, so is the bag
+/// @param descriptors    of the image
+/// @param levels_up      levels above the lowest
+/// @param[out] bow       keeps its memory
+/// @param[out] features  keeps its memory
+/// @throws ArgumentError as above
 inline void transform(const Vocabulary& vocabulary, const Descriptors& descriptors,
                       std::uint32_t levels_up, BowVector& bow, FeatureVector& features) {
   TransformMemory memory;
   transform(vocabulary, descriptors, levels_up, bow, features, memory);
 }
-/// @}
 
 /// The word of each descriptor, also of those without weight; 0xFFFFFFFF in a damaged vocabulary.
 /// @param vocabulary   not empty
