@@ -2,6 +2,7 @@
 #include <gslam/vocabulary/file.h>
 #include <gslam/vocabulary/load.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -225,7 +226,7 @@ TEST(fbow, errors_name_the_byte) {
 
 TEST(load, our_own_files_are_recognised) {
   const toy::Tree tree = toy::makeTree(4, 4, 3, 32, true);
-  const std::string path = testing::TempDir() + "load_test.gvoc";
+  const std::string path = testing::TempDir() + std::to_string(getpid()) + "_load_test.gvoc";
   gslam::saveVocabulary(load(toy::dbow3(tree)), path);
   const Vocabulary mapped = gslam::loadVocabulary(path);
   EXPECT_TRUE(mapped.isMapped());
@@ -240,7 +241,7 @@ TEST(load, our_own_files_are_recognised) {
 
 TEST(load, files_are_told_apart_by_what_is_in_them) {
   const toy::Tree tree = toy::makeTree(5, 4, 3, 32, true);
-  const std::string path = testing::TempDir() + "load_test.any";
+  const std::string path = testing::TempDir() + std::to_string(getpid()) + "_load_test.any";
   for (const Bytes& bytes :
        {toy::dbow3(tree), toy::gbow(tree), toy::fbow(tree), toy::bytesOfText(toy::orbText(tree)),
         toy::bytesOfText(toy::yaml(tree, "")), toy::bytesOfText(toy::yaml(tree, "0 32 "))}) {

@@ -3,6 +3,7 @@
 #include <gslam/base/detail/little_endian.h>
 #include <gslam/vocabulary/database.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -28,7 +29,7 @@ using Bytes = std::vector<std::uint8_t>;
 class TestFile {
  public:
   explicit TestFile(const std::string& name)
-      : path_(testing::TempDir() + "gslam_database_file_" + name) {}
+      : path_(testing::TempDir() + std::to_string(getpid()) + "_gslam_database_file_" + name) {}
   ~TestFile() { std::remove(path_.c_str()); }
   TestFile(const TestFile&) = delete;
   TestFile& operator=(const TestFile&) = delete;

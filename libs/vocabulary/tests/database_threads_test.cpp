@@ -1,6 +1,7 @@
 // Queries while others add and erase: run under ThreadSanitizer, too.
 #include <gslam/vocabulary/database.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <cmath>
@@ -149,7 +150,8 @@ TEST(database_threads, may_clear_and_save_meanwhile) {
   others.emplace_back([&] {
     while (!is_over.load()) database.query(bags[1]);
   });
-  const std::string path = testing::TempDir() + "gslam_database_threads_test.bow";
+  const std::string path =
+      testing::TempDir() + std::to_string(getpid()) + "_gslam_database_threads_test.bow";
   std::size_t not_empty = 0;
   for (int i = 0; i < 20 || not_empty < 5; ++i) {  // else CTest ends it
     database.save(path);

@@ -3,6 +3,7 @@
 #include <gslam/vocabulary/file.h>
 #include <gslam/vocabulary/fingerprint.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -35,7 +36,8 @@ TEST(fingerprint, is_the_same_for_copies_files_and_ways_to_compare) {
   EXPECT_NE(expected, 0u);
   EXPECT_EQ(fingerprintOf(gslam::detail::treeDataOf(vocabulary)), expected);
   EXPECT_EQ(gslam::fingerprint(vocabulary.withScoring(gslam::Scoring::kl)), expected);
-  const std::string path = testing::TempDir() + "gslam_fingerprint_test.voc";
+  const std::string path =
+      testing::TempDir() + std::to_string(getpid()) + "_gslam_fingerprint_test.voc";
   saveVocabulary(vocabulary, path);
   EXPECT_EQ(gslam::fingerprint(gslam::openVocabulary(path)), expected);
   std::remove(path.c_str());

@@ -6,6 +6,7 @@
 #include <gslam/vocabulary/load.h>
 #include <gslam/vocabulary/orb_slam_text.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -126,7 +127,7 @@ TEST(gzip, kimera_vocabulary_is_read) {
 
 TEST(gzip, real_vocabularies_are_the_same_through_the_text_of_orb_slam) {
   NEEDS_TEST_DATA();
-  const std::string path = testing::TempDir() + "gzip_test.txt";
+  const std::string path = testing::TempDir() + std::to_string(getpid()) + "_gzip_test.txt";
   for (const std::string& file : {slambook(), kimera()}) {
     gslam::saveOrbSlamText(gslam::loadGzippedVocabulary(file), path);
     const std::string prefix = file == kimera() ? "" : "0 32 ";
@@ -146,13 +147,13 @@ TEST(gzip, without_its_header_the_answer_names_it) {
 }
 
 std::string fileOf(const std::string& bytes) {
-  std::string path = testing::TempDir() + "gzip_test.any";
+  std::string path = testing::TempDir() + std::to_string(getpid()) + "_gzip_test.any";
   std::ofstream(path, std::ios::binary) << bytes;
   return path;
 }
 
 std::string zipped(const std::string& text) {
-  const std::string path = testing::TempDir() + "gzip_test.gz";
+  const std::string path = testing::TempDir() + std::to_string(getpid()) + "_gzip_test.gz";
   const gzFile file = gzopen(path.c_str(), "wb");
   EXPECT_EQ(gzwrite(file, text.data(), static_cast<unsigned>(text.size())),
             static_cast<int>(text.size()));

@@ -3,6 +3,7 @@
 #include <gslam/vocabulary/load.h>
 #include <gslam/vocabulary/orb_slam_text.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <clocale>
 #include <cstddef>
@@ -41,7 +42,7 @@ std::string fileText(const std::string& path) {
 }
 
 std::string save(const Vocabulary& vocabulary) {
-  const std::string path = testing::TempDir() + "orb_text_test.txt";
+  const std::string path = testing::TempDir() + std::to_string(getpid()) + "_orb_text_test.txt";
   gslam::saveOrbSlamText(vocabulary, path);
   std::string text = fileText(path);
   std::remove(path.c_str());
@@ -282,7 +283,7 @@ TEST(orb_text, words_and_the_order_of_siblings_decide_the_lines) {
 }
 
 TEST(orb_text, what_the_format_cannot_hold_is_refused) {
-  const std::string path = testing::TempDir() + "orb_text_refused.txt";
+  const std::string path = testing::TempDir() + std::to_string(getpid()) + "_orb_text_refused.txt";
   const auto refused = [&path](const gslam::detail::TreeData& data) {
     EXPECT_THROW(gslam::saveOrbSlamText(gslam::detail::buildVocabulary(data, "four"), path),
                  gslam::ArgumentError);
