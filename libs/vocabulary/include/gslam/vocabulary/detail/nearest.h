@@ -21,12 +21,11 @@ inline SimdKernel<ChooseFunction> chooseKernel(const DescriptorFormat& format) {
 }
 
 // For each of `count` rows the nearest of `centre_count` rows, 1 to 64; of equally near ones the
-// first. Rows lie strideOf(format) bytes apart; behind binary ones there are zeros. Rows are of
-// floats where the format has numbers, and then `row_stride` bytes apart. Distances are bits, or
-// squares of L2; may be null.
-inline void nearestRows(const DescriptorFormat& format, const std::uint8_t* rows,
-                        std::size_t row_stride, std::size_t count, const std::uint8_t* centres,
-                        std::uint32_t centre_count, std::uint32_t* nearest, float* distances) {
+// first. The format is binary or float32, and all lie strideOf(format) bytes apart, with zeros
+// behind binary ones. Distances are bits, or squares of L2; may be null.
+inline void nearestRows(const DescriptorFormat& format, const std::uint8_t* rows, std::size_t count,
+                        const std::uint8_t* centres, std::uint32_t centre_count,
+                        std::uint32_t* nearest, float* distances) {
   constexpr std::size_t kPiece = 128;
   const ChooseFunction choose = chooseKernel(format).active();
   const std::size_t stride = strideOf(format);
@@ -35,7 +34,7 @@ inline void nearestRows(const DescriptorFormat& format, const std::uint8_t* rows
   for (std::size_t begin = 0; begin < count; begin += kPiece) {
     const std::size_t size = std::min(kPiece, count - begin);
     for (std::size_t i = 0; i < size; ++i) {
-      visits[i] = Visit{rows + (begin + i) * row_stride, centres, centre_count, 0};
+      visits[i] = Visit{rows + (begin + i) * stride, centres, centre_count, 0};
     }
     choose(format, stride, visits, size, choices);
     for (std::size_t i = 0; i < size; ++i) {
@@ -43,13 +42,6 @@ inline void nearestRows(const DescriptorFormat& format, const std::uint8_t* rows
       if (distances != nullptr) distances[begin + i] = choices[i].distance;
     }
   }
-}
-
-// Of rows that are kept as the centres are.
-inline void nearestRows(const DescriptorFormat& format, const std::uint8_t* rows, std::size_t count,
-                        const std::uint8_t* centres, std::uint32_t centre_count,
-                        std::uint32_t* nearest, float* distances) {
-  nearestRows(format, rows, strideOf(format), count, centres, centre_count, nearest, distances);
 }
 
 }  // namespace detail
