@@ -21,11 +21,15 @@ option(GSLAM_BUILD_FUZZ "Build the fuzz targets (needs clang's libFuzzer)" OFF)
 option(GSLAM_INSTALL "Make install rules and packages" ${ours})
 option(GSLAM_WERROR "Treat warnings in GSLAM's own sources as errors" ${ours})
 set(GSLAM_SANITIZE "" CACHE STRING "Sanitizers for everything that is built, e.g. address,undefined")
+set(GSLAM_TEST_SHARDS 0 CACHE STRING "Processes that share the tests of a program; 0: one for each test")
+set(GSLAM_TESTED_ELSEWHERE "" CACHE STRING "Libraries whose tests and examples another build has, e.g. base;core")
 set(GSLAM_TEST_STANDARD "" CACHE STRING "C++ standard of the tests; default: what the library asks for")
 
 if(GSLAM_SANITIZE)
   add_compile_options(-fsanitize=${GSLAM_SANITIZE} -fno-sanitize-recover=all
     -fno-omit-frame-pointer -g1)
+  # GCC's sanitizers make it warn of its own intrinsics (PR 105593); the other builds keep the warning.
+  add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   add_link_options(-fsanitize=${GSLAM_SANITIZE})
 endif()
 if(GSLAM_BUILD_FUZZ)
@@ -53,19 +57,17 @@ function(_gslam_add_programs name standard)
   file(GLOB tests CONFIGURE_DEPENDS tests/*.cpp)
   file(GLOB benches CONFIGURE_DEPENDS bench/*.cpp)
   file(GLOB examples CONFIGURE_DEPENDS examples/*.cpp)
-  if(GSLAM_BUILD_TESTS AND tests)
+  if(GSLAM_SANITIZE STREQUAL "thread")
+    _gslam_keep_threaded(tests)
+  endif()
+  if(GSLAM_BUILD_TESTS AND tests AND NOT name IN_LIST GSLAM_TESTED_ELSEWHERE)
     _gslam_find_gtest()
     add_executable(${name}_test ${tests})
     target_link_libraries(${name}_test PRIVATE GSLAM::${name} GTest::gmock GTest::gtest_main)
     target_include_directories(${name}_test PRIVATE "${GSLAM_SOURCE_ROOT}/tests/harness")
     _gslam_set_up_program(${name}_test ${standard})
-    # A third less time to compile than with -O2, with which tests/headers compiles the headers.
-    if(NOT GSLAM_SANITIZE)
-      target_compile_options(${name}_test PRIVATE
-        "$<$<AND:$<CXX_COMPILER_ID:GNU,Clang>,$<CONFIG:RelWithDebInfo>>:-O1>")
-    endif()
-    gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST
-      PROPERTIES LABELS ${name})
+    _gslam_compile_tests_fast(${name})
+    _gslam_add_tests(${name})
   endif()
   if(GSLAM_BUILD_BENCH AND benches)
     gslam_add_bench(${name}_bench SOURCES ${benches} LINK GSLAM::${name} STANDARD ${standard})
@@ -77,7 +79,7 @@ function(_gslam_add_programs name standard)
       _gslam_add_fuzz(${name} ${fuzz_target} ${source} ${standard})
     endforeach()
   endif()
-  if(GSLAM_BUILD_EXAMPLES)
+  if(GSLAM_BUILD_EXAMPLES AND NOT name IN_LIST GSLAM_TESTED_ELSEWHERE)
     foreach(source IN LISTS examples)
       get_filename_component(example ${source} NAME_WE)
       set(target ${name}_example_${example})
@@ -88,6 +90,63 @@ function(_gslam_add_programs name standard)
       set_tests_properties(${name}.example.${example} PROPERTIES LABELS ${name})
     endforeach()
   endif()
+endfunction()
+
+# Most of the time of CI goes into compiling tests. GoogleTest and the library are read once; that each
+# header stands alone is what tests/headers is for. What a compiled library does is optimised by its
+# own flags, so that its tests need not be; headers are tested at -O1, a third cheaper than -O2.
+function(_gslam_compile_tests_fast name)
+  target_precompile_headers(${name}_test PRIVATE <gtest/gtest.h> <gmock/gmock.h>
+    "${CMAKE_CURRENT_SOURCE_DIR}/include/gslam/${name}.h")
+  if(GSLAM_SANITIZE)
+    return()
+  endif()
+  get_target_property(type gslam_${name} TYPE)
+  set(level -O0)
+  if(type STREQUAL INTERFACE_LIBRARY)
+    set(level -O1)
+  endif()
+  target_compile_options(${name}_test PRIVATE
+    "$<$<AND:$<CXX_COMPILER_ID:GNU,Clang>,$<CONFIG:RelWithDebInfo>>:${level}>")
+endfunction()
+
+# Where tests are built, many sources that all include core read it once: it takes 4 of the 12 s that
+# one of them takes. Builds without tests see that each source includes what it needs.
+function(_gslam_precompile_core target)
+  if(GSLAM_BUILD_TESTS AND GSLAM_IS_WHOLE AND TARGET GSLAM::core)
+    target_precompile_headers(${target} PRIVATE <gslam/core.h>)
+  endif()
+endfunction()
+
+# A process for each test, so that none leans on another one; or a few that share them, where to start
+# one takes as long as the test: with sanitizers, and with what OpenCV links.
+function(_gslam_add_tests name)
+  if(NOT GSLAM_TEST_SHARDS)
+    gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST
+      PROPERTIES LABELS ${name})
+    return()
+  endif()
+  math(EXPR last "${GSLAM_TEST_SHARDS} - 1")
+  foreach(shard RANGE ${last})
+    set(test ${name}.shard_${shard})
+    add_test(NAME ${test} COMMAND ${name}_test)
+    # tests/tally.py counts what is written there.
+    set_tests_properties(${test} PROPERTIES LABELS ${name} TIMEOUT 3000 ENVIRONMENT
+      "GTEST_TOTAL_SHARDS=${GSLAM_TEST_SHARDS};GTEST_SHARD_INDEX=${shard};GTEST_OUTPUT=xml:${CMAKE_BINARY_DIR}/gtest/${test}.xml")
+  endforeach()
+endfunction()
+
+# Of a list of sources those that have to do with threads: the thread sanitizer has nothing to say of
+# the others.
+function(_gslam_keep_threaded sources)
+  set(kept "")
+  foreach(source IN LISTS ${sources})
+    file(STRINGS "${source}" words REGEX "[Tt]hread|[Pp]arallel|async|atomic|Workers" LIMIT_COUNT 1)
+    if(words)
+      list(APPEND kept "${source}")
+    endif()
+  endforeach()
+  set(${sources} "${kept}" PARENT_SCOPE)
 endfunction()
 
 # Replays the seeds and fuzzes for 10 s; for a minute in the full tier. What is found stays in the
@@ -121,10 +180,21 @@ function(gslam_add_bench target)
     target_include_directories(gslam_bench_main PUBLIC "${GSLAM_SOURCE_ROOT}/bench/harness")
     target_link_libraries(gslam_bench_main PUBLIC benchmark::benchmark)
     _gslam_set_up_program(gslam_bench_main 11)
+    _gslam_set_bench_level(gslam_bench_main)
   endif()
   add_executable(${target} ${ARG_SOURCES})
   target_link_libraries(${target} PRIVATE gslam_bench_main ${ARG_LINK})
   _gslam_set_up_program(${target} ${ARG_STANDARD})
+  _gslam_set_bench_level(${target})
+endfunction()
+
+# Beside tests a benchmark is only seen to compile, and says "debug" where it is run nevertheless; the
+# preset `bench` makes what is measured.
+function(_gslam_set_bench_level target)
+  if(GSLAM_BUILD_TESTS)
+    target_compile_options(${target} PRIVATE
+      "$<$<AND:$<CXX_COMPILER_ID:GNU,Clang>,$<CONFIG:RelWithDebInfo>>:-O0>")
+  endif()
 endfunction()
 
 function(_gslam_set_up_program target standard)

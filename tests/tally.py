@@ -19,6 +19,31 @@ def read(path):
         cases = ElementTree.parse(path).getroot().findall("testcase")
     except (OSError, ElementTree.ParseError) as error:
         return 0, [f"{path}: {error}"], 0
+    shares = [share_of_program(path, case) or count([case]) for case in cases]
+    return (sum(share[0] for share in shares), [name for share in shares for name in share[1]],
+            sum(share[2] for share in shares))
+
+
+def share_of_program(path, case):
+    """What GoogleTest wrote of the tests that one process ran: build/PRESET/gtest/NAME.xml beside
+    build/results/PRESET.xml. None where the process ended before it wrote, or is no such process."""
+    path = pathlib.Path(path)
+    written = path.parent.parent / path.stem / "gtest" / f"{case.get('name')}.xml"
+    if ".shard_" not in case.get("name", "") or not written.exists():
+        return None
+    cases = [inner for suite in ElementTree.parse(written).getroot() for inner in suite]
+    names = {True: [], False: []}
+    for inner in cases:
+        names[inner.find("failure") is None].append(
+            f"{inner.get('classname')}.{inner.get('name')}")
+    skipped = sum(1 for inner in cases if inner.get("result") == "skipped")
+    if case.get("status") != "run" and not names[False]:
+        return None  # it failed otherwise, such as by a leak
+    return len(names[True]) - skipped, names[False], skipped
+
+
+def count(cases):
+    """(passed, failed names, skipped) of test cases that ctest wrote."""
     skipped = [case for case in cases if was_skipped(case)]
     failed = [case.get("name") for case in cases
               if case.get("status") != "run" and case not in skipped]

@@ -46,6 +46,22 @@ class Tally(unittest.TestCase):
         status, lines = self.total(self.results("a.xml", PASSED, NOT_FOUND))
         self.assertEqual((status, lines), (1, ["FAILED a: n", "1 passed, 1 failed, 0 skipped"]))
 
+    def test_counts_the_tests_that_one_process_ran(self):
+        results, gtest = self.folder / "results", self.folder / "dev" / "gtest"
+        results.mkdir()
+        gtest.mkdir(parents=True)
+        inner = ('<testsuites><testsuite><testcase classname="a" name="b" result="completed"/>'
+                 '<testcase classname="a" name="c" result="skipped"/>{}</testsuite></testsuites>')
+        bad = '<testcase classname="a" name="d"><failure message="no"/></testcase>'
+        for status, more, expected in (
+                ("run", "", "1 passed, 0 failed, 1 skipped"),
+                ("fail", bad, "1 passed, 1 failed, 1 skipped"),
+                ("fail", "", "0 passed, 1 failed, 0 skipped")):  # a leak, or what a crash left
+            (gtest / "l.shard_0.xml").write_text(inner.format(more))
+            path = self.results("results/dev.xml",
+                                f'<testcase name="l.shard_0" status="{status}"/>')
+            self.assertEqual(self.total(path)[1][-1], expected)
+
     def test_has_failures(self):
         for cases, expected in (([FAILED], 0), ([PASSED], 1), ([NOT_FOUND], 0), ([], 1)):
             path = self.results("a.xml", *cases)

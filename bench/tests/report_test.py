@@ -129,6 +129,11 @@ class CellTest(ReportTest):
                             aggregate_of("a", "cv", 0.05, allocs=float("nan")))
         self.assertEqual(self.table(file)["a"]["gslam"], "33.0 ns (0 allocs)")
 
+    def test_what_is_found_beside_the_time(self):
+        file = self.results(run_of("a/gslam", 10, lost=0, p999=1.26e-12, other=3), run_of("a/peer", 20, right=98, wrong=2))
+        self.assertEqual(self.table(file)["a"], {"gslam": "**10.0 ns** (lost 0 %, p999 1e-12)",
+                                                 "peer": "20.0 ns x2.0 (right 98 %, wrong 2 %)"})
+
     def test_allocs(self):
         file = self.results(run_of("a/gslam", 10, allocs=0.0), run_of("a/peer", 20, allocs=1.5))
         self.assertEqual(self.table(file)["a"],

@@ -21,7 +21,7 @@ inline namespace v1 {
 namespace detail {
 namespace {
 
-bool isDigit(char c) {
+bool isDecimal(char c) {
   return c >= '0' && c <= '9';
 }
 
@@ -67,7 +67,7 @@ namespace {
 void addNumber(const char* name, std::vector<long>& out) {
   long number = 0;
   const char* c = name;
-  for (; isDigit(*c) && number < 1000000000; ++c) number = 10 * number + (*c - '0');
+  for (; isDecimal(*c) && number < 1000000000; ++c) number = 10 * number + (*c - '0');
   if (c != name && *c == '\0') out.push_back(number);
 }
 
@@ -130,9 +130,9 @@ bool takeNumber(const std::string& text, std::size_t& at, std::uint64_t& out) {
   while (at < text.size() && (text[at] == ' ' || text[at] == '\t')) ++at;
   const bool is_negative = at < text.size() && text[at] == '-';  // some fields are -1 for "none"
   if (is_negative) ++at;
-  if (at >= text.size() || !isDigit(text[at])) return false;
+  if (at >= text.size() || !isDecimal(text[at])) return false;
   std::uint64_t value = 0;
-  for (; at < text.size() && isDigit(text[at]); ++at) {
+  for (; at < text.size() && isDecimal(text[at]); ++at) {
     value = 10 * value + std::uint64_t(text[at] - '0');
   }
   out = is_negative ? 0 : value;
@@ -185,7 +185,7 @@ std::vector<CoreTicks> parseCores(const std::string& text) {
     CoreTicks core;
     std::uint64_t number = 0;
     std::size_t at = line + 3;
-    if (text.compare(line, 3, "cpu") == 0 && at < end && isDigit(text[at]) &&
+    if (text.compare(line, 3, "cpu") == 0 && at < end && isDecimal(text[at]) &&
         takeNumber(text, at, number)) {
       core.core = std::size_t(number);
       // user nice system idle iowait irq softirq steal; guests are part of user

@@ -75,7 +75,8 @@ TEST(BatchInput, ExpNamesTheFirstThatIsNotFinite) {
   for (const gslam::Simd variant : gslam::availableSimd()) {
     const gslam::ScopedSimd forced(variant);
     for (const double value : bad) {
-      for (const std::size_t at : {0, 3, 17, 36}) {
+      const std::size_t places[] = {0, 3, 17, 36};
+      for (const std::size_t at : places) {
         std::vector<Vec3d> v(37, Vec3d{0.1, 0.2, 0.3});
         v[at][1] = value;
         v[36][2] = value;
