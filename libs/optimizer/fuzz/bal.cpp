@@ -1,0 +1,18 @@
+// Any bytes are a bundle whose indices are there, or are refused with a ParseError.
+#include <gslam/base/error.h>
+#include <gslam/optimizer/files/bal.h>
+
+#include <cstddef>
+#include <cstdint>
+
+#include "check_bundle_indices.h"
+
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer looks for this name
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  try {
+    checkBundleIndices(gslam::parseBal(text, "fuzz"));
+  } catch (const gslam::ParseError&) {  // NOLINT(bugprone-empty-catch): what most inputs get
+  }
+  return 0;
+}
