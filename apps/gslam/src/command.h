@@ -29,6 +29,7 @@ int infoCommand(const std::vector<std::string>& arguments);
 int evalCommand(const std::vector<std::string>& arguments);
 int mapCommand(const std::vector<std::string>& arguments);
 int vocabularyCommand(const std::vector<std::string>& arguments);
+int optimizeCommand(const std::vector<std::string>& arguments);
 int pluginsCommand(const std::vector<std::string>& arguments);
 int datasetsCommand(const std::vector<std::string>& arguments);
 int configCommand(const std::vector<std::string>& arguments);

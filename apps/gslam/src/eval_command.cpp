@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <iostream>
+#include <sstream>
 
 #include "command.h"
 #include "comparison.h"
@@ -13,6 +14,7 @@
 #include "options.h"
 #include "run_folder.h"
 #include "trajectory_input.h"
+#include "trajectory_plot.h"
 
 namespace app {
 namespace {
@@ -113,6 +115,51 @@ void declareClouds(Options& options) {
       .group("Figures");
 }
 
+std::string plotFile(const Options& options) {
+  const auto file = options.get<std::string>("plot");
+  if (!file.empty() && fs::path(file).extension() != ".png") {
+    throw ConfigError("--plot", "'" + file + "' is no name of a PNG file, such as plot.png");
+  }
+  return file;
+}
+
+std::string plotTitle(const gslam::Evaluation& evaluation) {
+  std::ostringstream title;
+  title << "ATE " << lengthText(evaluation.ape.translation.rmse) << " rmse ("
+        << gslam::alignmentText(evaluation.options.alignment) << "), coverage "
+        << numberText(100 * evaluation.coverage.frames, 0.1) << " % of the frames";
+  return title.str();
+}
+
+// Of the estimate that is drawn which was measured: the poses that have a partner.
+TrajectoryPlot plotOf(const Input& reference, const Input& estimate,
+                      const gslam::Evaluation& evaluation) {
+  TrajectoryPlot plot;
+  plot.title = plotTitle(evaluation);
+  plot.subtitle = estimate.path + " over " + reference.path;
+  plot.lost_after = std::int64_t(1e9 * evaluation.coverage.lost_after);
+  for (const gslam::StampedPose& pose : reference.trajectory) {
+    plot.truth.push_back({pose.stamp, pose.pose.translation(), 0});
+  }
+  const gslam::PosePairs& pairs = evaluation.pairs;
+  const gslam::SIM3d& S_world_map = evaluation.alignment.S_world_map;
+  const std::vector<double> errors = gslam::absoluteErrors(pairs, S_world_map).translation;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const gslam::SE3d pose = gslam::aligned(S_world_map, pairs.estimate[i]);
+    plot.estimate.push_back({pairs.stamps[i], pose.translation(), errors[i]});
+  }
+  return plot;
+}
+
+// Writes the picture. @return the plot for the terminal; empty where none is wanted, or possible
+std::string drawPlot(const std::string& file, const Input& reference, const Input& estimate,
+                     const gslam::Evaluation& evaluation) {
+  if (file.empty() || !evaluation.alignment.is_valid) return "";
+  const TrajectoryPlot plot = plotOf(reference, estimate, evaluation);
+  writePlot(plot, file);
+  return plotText(plot, isUtf8Environment()) + "plot         " + file + '\n';
+}
+
 }  // namespace
 
 int evalCommand(const std::vector<std::string>& arguments) {
@@ -122,22 +169,29 @@ int evalCommand(const std::vector<std::string>& arguments) {
   declareInputs(options);
   declareClouds(options);
   declareComparison(options);
+  options
+      .arg<std::string>(
+          "plot", "", "PNG file to draw the estimate over ground truth in; a small one is printed")
+      .group("Output");
   if (!options.read(withOneRpe(arguments))) return kSuccess;
   options.noWords();
+  const std::string plot_file = plotFile(options);
   const Input reference = readInput(options, "ref"), estimate = readInput(options, "est");
   const gslam::EvaluationOptions how = evaluationOf(options, reference, estimate);
   gslam::Evaluation evaluation = gslam::evaluate(reference.trajectory, estimate.trajectory, how);
   measureCloud(options, evaluation);
+  const std::string plot = drawPlot(plot_file, reference, estimate, evaluation);
   if (options.isJson()) {
     std::cout << gslam::printJson(gslam::evaluationToSvar(evaluation)) << '\n';
   } else {
     printInput("reference", reference);
     printInput("estimate", estimate);
-    std::cout << gslam::evaluationText(evaluation);
+    std::cout << gslam::evaluationText(evaluation) << plot;
   }
   if (evaluation.alignment.is_valid) return kSuccess;
   std::cerr << "gslam eval: --align " << gslam::alignmentText(how.alignment)
             << " is not possible: " << evaluation.alignment.reason << '\n';
+  if (!plot_file.empty()) std::cerr << plot_file << ": was not drawn\n";
   return kFailure;
 }
 

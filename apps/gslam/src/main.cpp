@@ -26,6 +26,7 @@ constexpr Command kCommands[] = {
     {"map", "say what is in a map file, or convert it", app::mapCommand},
     {"vocabulary", "train, read and convert vocabularies, and find places by them",
      app::vocabularyCommand},
+    {"optimize", "adjust a bundle or a pose graph", app::optimizeCommand},
     {"plugins", "list the plugins, what they bring and its parameters", app::pluginsCommand},
     {"datasets", "list the kinds of datasets that can be read", app::datasetsCommand},
     {"config", "print the parameters of a SLAM system or dataset as a file", app::configCommand},

@@ -11,14 +11,14 @@
 namespace app {
 
 RunOptions::RunOptions()
-    : Options("gslam run DATASET --slam S --out DIR [options]",
+    : Options("gslam run DATASET [--slam S] --out DIR [options]",
               "Runs a SLAM system on a dataset, in a process of its own that may crash, and "
               "measures it. Writes to DIR: metrics.json (accuracy, coverage, cost), run.json (what "
               "ran where, and how it ended), trajectory.txt (each pose as it was first published), "
               "trajectory_final.txt (as the system says at the end), groundtruth.txt, frames.csv "
               "(each frame) and, where there is one, map.gmap, in place of those of a run before. "
               "A run that fails or is stopped keeps what it has.") {
-  Session::declare(*this);
+  Session::declare(*this, "visual");
   arg<std::string>("out", "folder for the results").shortName("o").group("What");
   arg<int>("repeat", 0, "runs, whose results go to DIR/1, DIR/2 ...; DIR/metrics.json sums up")
       .range(0, 10000)

@@ -98,11 +98,11 @@ CallLimits callLimits(const Options& options) {
   return {all, all, all};
 }
 
-void Session::declare(Options& options) {
+void Session::declare(Options& options, const std::string& slam) {
   options.arg<std::string>("dataset", "", "file, folder, KIND:PATH or KIND://...")
       .shortName("d")
       .group("What");
-  options.arg<std::string>("slam", "", "name or file of the SLAM system")
+  options.arg<std::string>("slam", slam, "name or file of the SLAM system")
       .shortName("s")
       .group("What");
   options

@@ -27,7 +27,8 @@ CallLimits callLimits(const Options& options);
 class Session {
  public:
   /// Declares the options, before they are read.
-  static void declare(Options& options);
+  /// @param slam  the system unless the user says another; empty: none
+  static void declare(Options& options, const std::string& slam = "");
 
   /// Opens the dataset. @throws Error
   explicit Session(const Options& options);

@@ -5,33 +5,21 @@ The program is named by the environment variable GSLAM.
 
 import json
 import os
-import pathlib
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
 
+from folder import Folder
+
 GSLAM = os.environ["GSLAM"]
-COMMANDS = ["run", "play", "info", "eval", "map", "vocabulary", "plugins", "datasets", "config"]
+COMMANDS = ["run", "play", "info", "eval", "map", "vocabulary", "optimize", "plugins", "datasets",
+            "config"]
 
 
 def gslam(*arguments, timeout=60, **environment):
     return subprocess.run([GSLAM, *map(str, arguments)], capture_output=True, text=True,
                           timeout=timeout, env={**os.environ, **environment})
-
-
-class Folder(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def check(self, result, status=0, out="", err=""):
-        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
-        self.assertIn(out, result.stdout)
-        self.assertIn(err, result.stderr)
-        return result
 
 
 class Help(Folder):
@@ -63,7 +51,8 @@ class WrongUse(Folder):
 
     def test_what_must_be_given(self):
         self.check(gslam("play"), 2, err="a dataset: must be given")
-        self.check(gslam("run", "--dataset", "carousel", "--out", self.folder), 2, err="--slam")
+        self.check(gslam("run", "--dataset", "carousel", "--slam", "", "--out", self.folder), 2,
+                   err="--slam")
         self.check(gslam("info"), 2, err="DATASET")
         self.check(gslam("map"), 2, err="info FILE")
 

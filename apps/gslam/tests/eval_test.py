@@ -8,17 +8,18 @@ import math
 import os
 import pathlib
 import subprocess
-import tempfile
 import unittest
+
+from folder import Folder
 
 GSLAM = os.environ["GSLAM"]
 DATA = os.environ.get("GSLAM_TEST_DATA")
 FIGURES = ["rmse", "mean", "median", "std", "min", "max", "sse", "count", "p90", "p95", "p99"]
 
 
-def evaluate(*arguments):
+def evaluate(*arguments, **environment):
     return subprocess.run([GSLAM, "eval", *map(str, arguments)], capture_output=True, text=True,
-                          timeout=60)
+                          encoding="utf-8", timeout=60, env={**os.environ, **environment})
 
 
 def pose(t):
@@ -39,29 +40,16 @@ def stamps(count, step=0.05, first=1000.0):
     return [first + step * i for i in range(count)]
 
 
-class Folder(unittest.TestCase):
+class EvalFolder(Folder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         self.ref = self.write("ref.txt", tum(stamps(600)))
-
-    def write(self, name, text):
-        path = self.folder / name
-        path.write_bytes(text.encode())
-        return path
-
-    def check(self, result, status=0, out="", err=""):
-        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
-        self.assertIn(out, result.stdout)
-        self.assertIn(err, result.stderr)
-        return result
 
     def figures(self, *arguments, status=0):
         return json.loads(self.check(evaluate(*arguments, "--json"), status).stdout)
 
 
-class Json(Folder):
+class Json(EvalFolder):
     def test_has_what_the_contract_says(self):
         est = self.write("est.txt", tum(stamps(500), shift=0.1))
         result = self.figures("--ref", self.ref, "--est", est, "--align", "none", "--rpe", "1f",
@@ -139,7 +127,7 @@ class Json(Folder):
         self.assertLess(result["score"]["value"], 0.9)
 
 
-class Text(Folder):
+class Text(EvalFolder):
     def test_has_the_coverage_beside_each_error(self):
         est = self.write("est.txt", tum(stamps(301)))
         result = self.check(evaluate("--ref", self.ref, "--est", est, "--align", "none", "--rpe",
@@ -160,7 +148,7 @@ class Text(Folder):
         self.assertEqual(result["association"]["pairs"], 600)
 
 
-class Formats(Folder):
+class Formats(EvalFolder):
     def test_euroc(self):
         lines = ["#timestamp,p_x,p_y,p_z,q_w,q_x,q_y,q_z,v_x,v_y,v_z"]
         for t in stamps(600):
@@ -183,7 +171,7 @@ class Formats(Folder):
         self.check(result, 1, err="ref.txt")
 
 
-class WrongUse(Folder):
+class WrongUse(EvalFolder):
     def fails(self, *arguments, status=2, err):
         result = self.check(evaluate(*arguments), status, err=err)
         self.assertEqual(result.stdout, "")
@@ -249,7 +237,91 @@ class WrongUse(Folder):
         self.assertEqual(result["rpe"][0]["translation"]["count"], 4)
 
 
-class Clouds(Folder):
+class Plot(EvalFolder):
+    def draw(self, est, *more, name="plot.png", **environment):
+        """The picture's bytes, and what was printed."""
+        picture = self.folder / name
+        result = self.check(evaluate("--ref", self.ref, "--est", est, "--plot", picture, *more,
+                                     **environment))
+        return picture.read_bytes(), result.stdout
+
+    def test_a_picture_of_each_trajectory(self):
+        # Scaled, it does not fit by a rigid motion; a part is missing in the third.
+        wrong = self.write("wrong.txt", tum(stamps(600), scale=0.9))
+        part = self.write("part.txt", tum([t for t in stamps(600) if not 1010 < t < 1015]))
+        pictures = [self.draw(est)[0] for est in [self.ref, wrong, part]]
+        for picture in pictures:
+            self.assertEqual(picture[:8], b"\x89PNG\r\n\x1a\n")
+            self.assertGreater(min(int.from_bytes(picture[i:i + 4], "big") for i in [16, 20]), 500)
+        self.assertEqual(len(set(pictures)), 3)
+        # The same again, in place of what was there.
+        self.assertEqual(self.draw(self.ref)[0], pictures[0])
+
+    def test_a_plot_in_letters(self):
+        part = self.write("part.txt", tum([t for t in stamps(600) if not 1010 < t < 1015]))
+        text = self.draw(part, LC_ALL="C")[1]
+        self.assertTrue(text.isascii())
+        rows = [line for line in text.splitlines() if line.startswith("|")]
+        self.assertTrue(5 <= len(rows) <= 20)
+        for row in rows:
+            self.assertEqual(len(row), len(rows[0]))
+            self.assertLessEqual(len(row), 62)
+        drawn = "".join(rows)
+        for letter in "#.SE":
+            self.assertIn(letter, drawn)
+        # What is not lost covers all of the truth.
+        whole = self.draw(self.ref, LC_ALL="C")[1]
+        self.assertNotIn(".", "".join(line for line in whole.splitlines() if line.startswith("|")))
+        self.assertIn("x to the right: ", text)
+        self.assertIn(f"plot         {self.folder / 'plot.png'}", text)
+        dots = self.draw(part, LC_ALL="", LC_CTYPE="", LANG="C.UTF-8")[1]
+        self.assertTrue(any("\u2800" < letter <= "\u28ff" for letter in dots))
+
+    def test_looks_along_the_axis_with_the_least_way(self):
+        for axes, names in [((0, 1), "xy"), ((0, 2), "xz"), ((1, 2), "yz")]:
+            lines = []
+            for t in range(100):
+                position = [0.01 * math.sin(t)] * 3
+                position[axes[0]] = 2 * math.sin(0.1 * t)
+                position[axes[1]] = 5 * math.cos(0.1 * t)
+                lines.append(f"{t} " + " ".join(f"{one:.6f}" for one in position) + " 0 0 0 1")
+            self.ref = self.write("ref.txt", "\n".join(lines) + "\n")
+            text = self.draw(self.ref)[1]
+            self.assertIn(f"{names[0]} to the right: -2.00 to 2.00 m, {names[1]} up: -5.00 to 5.00 m",
+                          text)
+
+    def test_one_pose_and_poses_at_one_place(self):
+        for count in [1, 50]:
+            self.ref = self.write("ref.txt", "".join(f"{t} 1 2 3 0 0 0 1\n" for t in range(count)))
+            picture, text = self.draw(self.ref, "--align", "none")
+            self.assertEqual(picture[:4], b"\x89PNG")
+            self.assertIn("S: start and end", text)
+
+    def test_json_stays_json(self):
+        json.loads(self.draw(self.ref, "--json")[1])
+
+    def test_what_cannot_be_written(self):
+        files = ["--ref", self.ref, "--est", self.ref, "--plot"]
+        for name in ["plot.jpg", "plot"]:
+            result = self.check(evaluate(*files, self.folder / name), 2, err="--plot")
+            self.assertIn("such as plot.png", result.stderr)
+            self.assertFalse((self.folder / name).exists())
+        missing = self.folder / "none" / "plot.png"
+        result = self.check(evaluate(*files, missing), 1, err="choose a file in a folder that is there")
+        self.assertIn(str(missing), result.stderr)
+        self.assertEqual(result.stdout, "")
+        full = self.folder / "full.png"
+        full.symlink_to("/dev/full")
+        self.check(evaluate(*files, full), 1, err="No space left")
+
+    def test_nothing_is_drawn_without_an_alignment(self):
+        line = self.write("line.txt", "".join(f"{t} {t} 0 0 0 0 0 1\n" for t in range(60)))
+        picture = self.folder / "plot.png"
+        self.check(evaluate("--ref", line, "--est", line, "--plot", picture), 1, err="was not drawn")
+        self.assertFalse(picture.exists())
+
+
+class Clouds(EvalFolder):
     def ply(self, name, points):
         head = (f"ply\nformat ascii 1.0\nelement vertex {len(points)}\nproperty float x\n"
                 "property float y\nproperty float z\nend_header\n")
@@ -266,7 +338,7 @@ class Clouds(Folder):
 
 
 @unittest.skipUnless(DATA, "GSLAM_TEST_DATA names no folder")
-class Real(Folder):
+class Real(EvalFolder):
     def test_evos_figures(self):
         folder = pathlib.Path(DATA) / "trajectories"
         reference = json.loads((folder / "evo_reference.json").read_text())

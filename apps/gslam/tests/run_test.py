@@ -84,6 +84,29 @@ class Runs(unittest.TestCase):
         return [line for line in lines if line and not line.startswith("#")]
 
 
+class Visual(Runs):
+    ROOM = "synthetic://room?frames=60&width=320&height=240"
+
+    def test_is_what_runs_unless_another_is_named(self):
+        result = gslam("run", self.ROOM, "--out", self.out, "--set", "features=500")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        metrics = self.json("metrics.json")
+        self.assertEqual(metrics["coverage"]["frames"], 1)
+        self.assertLess(metrics["ape"]["translation"]["rmse"], 0.05)
+        self.assertEqual(self.json("run.json")["slam"]["name"], "visual")
+        self.assertTrue((self.out / "map.gmap").exists())
+
+    def test_says_what_is_wrong_with_a_parameter(self):
+        result = gslam("run", self.ROOM, "--out", self.out, "--set", "sensor=sonar")
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("sensor is 'sonar', expected one of auto, mono, stereo, rgbd", result.stderr)
+
+    def test_says_what_a_dataset_lacks(self):
+        result = gslam("run", self.ROOM + "&sensors=mono", "--out", self.out, "--set", "sensor=rgbd")
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("depth", result.stderr)
+
+
 class Accuracy(Runs):
     def test_noise_is_the_error(self):
         metrics = self.run_it("noise_m=0.05", "noise_deg=2", dataset=["carousel"], truth="long",

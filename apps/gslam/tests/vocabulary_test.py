@@ -8,9 +8,10 @@ import os
 import pathlib
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
+
+from folder import Folder
 
 GSLAM = os.environ["GSLAM"]
 DATA = pathlib.Path(os.environ.get("GSLAM_TEST_DATA", "")) / "vocabularies"
@@ -24,28 +25,12 @@ def vocabulary(*arguments):
                           text=True, timeout=120)
 
 
-class Folder(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def check(self, result, status=0, out="", err=""):
-        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
-        self.assertIn(out, result.stdout)
-        self.assertIn(err, result.stderr)
-        return result
-
+class VocabularyFolder(Folder):
     def json(self, *arguments):
         return json.loads(self.check(vocabulary(*arguments, "--json")).stdout)
 
-    def write(self, name, content):
-        path = self.folder / name
-        path.write_bytes(content)
-        return path
 
-
-class Help(Folder):
+class Help(VocabularyFolder):
     def test_each_part_has_one(self):
         listed = self.check(vocabulary("--help")).stdout
         for part in ["train", "info", "convert", "transform", "query"]:
@@ -70,7 +55,7 @@ class Help(Folder):
         self.assertEqual(list(self.folder.iterdir()), [])
 
 
-class Worlds(Folder):
+class Worlds(VocabularyFolder):
     """Computed worlds, for which no data is needed."""
 
     world = "synthetic://room?frames=6&width=320&height=240"
@@ -165,7 +150,7 @@ class Worlds(Folder):
         self.assertEqual(list(self.folder.iterdir()), [])
 
 
-class BadInput(Folder):
+class BadInput(VocabularyFolder):
     def train(self, *images):
         return vocabulary("train", *images, "--out", self.folder / "v.gvoc")
 
@@ -233,7 +218,7 @@ class BadInput(Folder):
 
 
 @unittest.skipUnless(HAS_DATA or os.environ.get("CI") == "true", "needs GSLAM_TEST_DATA")
-class RealFiles(Folder):
+class RealFiles(VocabularyFolder):
     def test_info(self):
         for name, shape in FILES.items():
             facts = self.json("info", DATA / name)
