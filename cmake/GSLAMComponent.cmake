@@ -79,9 +79,6 @@ function(gslam_component name)
     "$<BUILD_INTERFACE:${CMAKE_CURRENT_BINARY_DIR}/include>"
     "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
   target_link_libraries(${target} ${visibility} ${dependency_targets} ${ARG_LINK})
-  if(NOT ARG_KIND STREQUAL headers AND core IN_LIST ARG_DEPENDS)
-    _gslam_precompile_core(${target})
-  endif()
 
   _gslam_write_version_header(${name} ${version})
   foreach(file IN LISTS ARG_COMMANDS)

@@ -92,12 +92,9 @@ function(_gslam_add_programs name standard)
   endif()
 endfunction()
 
-# Most of the time of CI goes into compiling tests. GoogleTest and the library are read once; that each
-# header stands alone is what tests/headers is for. What a compiled library does is optimised by its
-# own flags, so that its tests need not be; headers are tested at -O1, a third cheaper than -O2.
+# What a compiled library does is optimised by its own flags, so that its tests need not be; headers
+# are tested at -O1, a third cheaper than -O2.
 function(_gslam_compile_tests_fast name)
-  target_precompile_headers(${name}_test PRIVATE <gtest/gtest.h> <gmock/gmock.h>
-    "${CMAKE_CURRENT_SOURCE_DIR}/include/gslam/${name}.h")
   if(GSLAM_SANITIZE)
     return()
   endif()
@@ -108,14 +105,6 @@ function(_gslam_compile_tests_fast name)
   endif()
   target_compile_options(${name}_test PRIVATE
     "$<$<AND:$<CXX_COMPILER_ID:GNU,Clang>,$<CONFIG:RelWithDebInfo>>:${level}>")
-endfunction()
-
-# Where tests are built, many sources that all include core read it once: it takes 4 of the 12 s that
-# one of them takes. Builds without tests see that each source includes what it needs.
-function(_gslam_precompile_core target)
-  if(GSLAM_BUILD_TESTS AND GSLAM_IS_WHOLE AND TARGET GSLAM::core)
-    target_precompile_headers(${target} PRIVATE <gslam/core.h>)
-  endif()
 endfunction()
 
 # A process for each test, so that none leans on another one; or a few that share them, where to start

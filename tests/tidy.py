@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs clang-tidy on files, in parallel; a header is checked through one source that includes it.
 
-usage: tidy.py COMPILE_COMMANDS < NAMES      (each name ended by a NUL)
+usage: tidy.py BUILD_FOLDER < NAMES      (each name ended by a NUL)
 
 A header that no compiled source includes directly is an error: nobody would ever compile it.
 """
@@ -13,7 +13,6 @@ import pathlib
 import re
 import subprocess
 import sys
-import tempfile
 
 
 def sources_of(files, compiled):
@@ -52,13 +51,6 @@ def source_that_sees(header, texts, compiled):
     return None
 
 
-def without_precompiled_headers(entries, folder):
-    """The same commands for clang, which cannot read what g++ has precompiled."""
-    pch = re.compile(r" (-Winvalid-pch|-include \S*cmake_pch\.hxx)")
-    entries = [{**entry, "command": pch.sub("", entry["command"])} for entry in entries]
-    (folder / "compile_commands.json").write_text(json.dumps(entries), encoding="utf-8")
-
-
 def tidy(folder, source):
     command = ["clang-tidy-14", "--quiet", "-p", str(folder), str(source)]
     result = subprocess.run(command, text=True, capture_output=True, check=False)
@@ -66,22 +58,17 @@ def tidy(folder, source):
 
 
 def main():
-    database = pathlib.Path(sys.argv[1])
+    folder = pathlib.Path(sys.argv[1])
     files = [pathlib.Path(name) for name in sorted(set(sys.stdin.read().split("\0"))) if name]
     # tests/packaging/new_component is compiled by the tests, in a copy of the tree.
     files = [file for file in files if "new_component" not in file.parts]
-    entries = json.loads(database.read_text(encoding="utf-8"))
-    # cmake_pch.hxx.cxx is made up by CMake.
-    compiled = {path for path in (pathlib.Path(entry["file"]).resolve() for entry in entries)
-                if not path.name.startswith("cmake_pch")}
+    entries = json.loads((folder / "compile_commands.json").read_text(encoding="utf-8"))
+    compiled = {pathlib.Path(entry["file"]).resolve() for entry in entries}
     sources, orphans = sources_of(files, compiled)
     failed = len(orphans)
     for orphan in orphans:
         print(f"{orphan}: no compiled source includes this header")
-    with tempfile.TemporaryDirectory() as name, \
-            concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        folder = pathlib.Path(name)
-        without_precompiled_headers(entries, folder)
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         for source, status, printed in pool.map(lambda s: tidy(folder, s), sources):
             if status != 0:
                 failed += 1
