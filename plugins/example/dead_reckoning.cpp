@@ -11,7 +11,7 @@ using gslam::SE3d;
 using gslam::SO3d;
 using gslam::Vec3d;
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kHalfTurn = 3.14159265358979323846;
 
 class DeadReckoning : public gslam::Slam {
  public:
@@ -58,7 +58,7 @@ class DeadReckoning : public gslam::Slam {
     if (!(norm > 0)) return SO3d();
     const Vec3d axis = (1 / norm) * accel.cross(up);
     const double sine = axis.norm(), cosine = accel[2] / norm;
-    if (sine < 1e-12) return cosine > 0 ? SO3d() : SO3d::exp({{kPi, 0, 0}});  // upside down
+    if (sine < 1e-12) return cosine > 0 ? SO3d() : SO3d::exp({{kHalfTurn, 0, 0}});  // upside down
     return SO3d::exp((std::atan2(sine, cosine) / sine) * axis);
   }
 

@@ -3,7 +3,7 @@
 
 usage: compile_headers.py HOUSE_JSON COMPONENT COMPILER STANDARD [FLAG ...]
 
-Each header is compiled twice-included and by itself at -O0; tests/instantiate.cpp, which
+Each header is read twice-included and by itself; tests/instantiate.cpp, which
 instantiates the templates and kernels, at -O0 and -O2. Where nothing but headers is needed it is
 linked at -O0, too: before C++17 a constant of a class has no address unless it is defined, which
 optimisation hides. Opt-in headers (interop_headers of
@@ -79,7 +79,7 @@ def main():
             print(f"left out: {header}, whose library is not installed or not for {standard}")
             continue
         include = f"#include <{header}>\n"
-        jobs.append((header, include + include, ["-c", "-O0"]))
+        jobs.append((header, include + include, ["-fsyntax-only"]))
     instantiate = pathlib.Path(component["folder"]) / "tests" / "instantiate.cpp"
     if instantiate.exists():
         text = instantiate.read_text(encoding="utf-8")

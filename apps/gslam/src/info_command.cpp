@@ -64,7 +64,7 @@ double secondsOf(const DatasetInfo& info) {
   return double(info.last_stamp - info.first_stamp) * 1e-9;
 }
 
-Svar describe(const DatasetInfo& info) {
+Svar describeDataset(const DatasetInfo& info) {
   Svar cameras = Svar::array();
   for (const CameraSensor& sensor : info.sensors.cameras) {
     cameras.push_back(describeCamera(sensor));
@@ -143,7 +143,7 @@ void printInfo(const DatasetInfo& info) {
   for (const std::string& remark : info.remarks) std::cout << "note: " << remark << '\n';
 }
 
-Svar describe(const gslam::DatasetCheck& check) {
+Svar describeCheck(const gslam::DatasetCheck& check) {
   return Svar::object({{"frames", check.frames},
                        {"images", check.images},
                        {"imu_samples", check.imu_samples},
@@ -182,7 +182,7 @@ void writeGroundTruth(const DatasetInfo& info, const std::string& file) {
   gslam::writeTrajectory(file, info.ground_truth);
 }
 
-int statusOf(const gslam::DatasetCheck& check) {
+int checkStatus(const gslam::DatasetCheck& check) {
   if (check.is_stopped) return kInterrupted;
   return check.errors.empty() ? kSuccess : kFailure;
 }
@@ -204,14 +204,14 @@ int infoCommand(const std::vector<std::string>& arguments) {
   }
   const auto truth = options.get<std::string>("ground-truth");
   if (!truth.empty()) writeGroundTruth(dataset->info(), truth);
-  Svar result = describe(dataset->info());
+  Svar result = describeDataset(dataset->info());
   if (!options.isJson()) printInfo(dataset->info());
   int status = kSuccess;
   if (options.get<bool>("check")) {
     const gslam::DatasetCheck found = check(*dataset);
     if (!options.isJson()) printCheck(found);
-    result.set("check", describe(found));
-    status = statusOf(found);
+    result.set("check", describeCheck(found));
+    status = checkStatus(found);
   }
   if (options.isJson()) std::cout << gslam::printJson(result) << '\n';
   return status;

@@ -4,6 +4,7 @@
 #include <gslam/core/trajectory_file.h>
 #include <gslam/svar/json.h>
 
+#include <filesystem>
 #include <iostream>
 
 #include "command.h"
@@ -12,11 +13,7 @@
 namespace app {
 namespace {
 
-bool endsIn(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-gslam::Svar describe(const gslam::Map& map) {
+gslam::Svar describeMap(const gslam::Map& map) {
   std::size_t features = 0, images = 0;
   for (const auto& keyframe : map.keyframes()) {
     features += keyframe.value.content->features.size();
@@ -33,7 +30,7 @@ gslam::Svar describe(const gslam::Map& map) {
 }
 
 int printInfo(const Options& options, const std::string& path) {
-  const gslam::Svar facts = describe(gslam::loadMap(path));
+  const gslam::Svar facts = describeMap(gslam::loadMap(path));
   if (options.isJson()) {
     std::cout << gslam::printJson(facts) << '\n';
     return kSuccess;
@@ -47,11 +44,12 @@ int printInfo(const Options& options, const std::string& path) {
 
 int convert(const std::string& from, const std::string& to) {
   const gslam::Map map = gslam::loadMap(from);
-  if (endsIn(to, ".gmap")) {
+  const auto extension = std::filesystem::path(to).extension();
+  if (extension == ".gmap") {
     gslam::saveMap(to, map);
-  } else if (endsIn(to, ".ply")) {
+  } else if (extension == ".ply") {
     gslam::savePly(to, map);
-  } else if (endsIn(to, ".txt")) {
+  } else if (extension == ".txt") {
     gslam::writeTrajectory(to, gslam::keyframeTrajectory(map));
   } else {
     throw gslam::ConfigError("'" + to + "'",

@@ -27,7 +27,7 @@ std::vector<std::string> layouts() {
   return names;
 }
 
-gslam::Svar describe(const gslam::ExportReport& report) {
+gslam::Svar describeExport(const gslam::ExportReport& report) {
   return gslam::Svar::object({{"frames", report.frames},
                               {"files", report.files},
                               {"bytes", report.bytes},
@@ -36,7 +36,7 @@ gslam::Svar describe(const gslam::ExportReport& report) {
                               {"remarks", report.remarks}});
 }
 
-void print(const gslam::ExportReport& report, const std::string& folder) {
+void printExport(const gslam::ExportReport& report, const std::string& folder) {
   std::cout << (report.is_stopped ? "stopped: " : "saved: ") << report.frames << " frames, "
             << report.files << " files, " << report.bytes / 1000000 << " MB in " << folder << '\n';
   for (const std::string& thing : report.left_out) std::cout << "left out: " << thing << '\n';
@@ -56,9 +56,9 @@ int save(Session& session, const Options& options, const std::string& folder) {
   const gslam::ExportReport report =
       gslam::exportDataset(session.dataset(), folder, options.get<std::string>("as"), how);
   if (options.isJson()) {
-    std::cout << gslam::printJson(describe(report)) << '\n';
+    std::cout << gslam::printJson(describeExport(report)) << '\n';
   } else {
-    print(report, folder);
+    printExport(report, folder);
   }
   return report.is_stopped ? kInterrupted : kSuccess;
 }
@@ -66,7 +66,7 @@ int save(Session& session, const Options& options, const std::string& folder) {
 int play(Session& session, const Options& options) {
   const OnInterrupt interrupt([&session] { session.stop(); });
   const gslam::RunResult result = session.play();
-  const gslam::Svar report = app::describe(result);
+  const gslam::Svar report = describe(result);
   if (options.isJson()) {
     std::cout << gslam::printJson(report) << '\n';
   } else {

@@ -36,7 +36,7 @@ Svar resultOf(const SupervisedRun& run) {
   return run.report.get<Svar>("result", Svar::object());
 }
 
-void print(const SupervisedRun& run) {
+void printRun(const SupervisedRun& run) {
   printResult(resultOf(run), true);
 }
 
@@ -67,7 +67,7 @@ int runSingle(RunSupervisor& supervisor, const RunOptions& options,
   if (options.isJson()) {
     std::cout << gslam::printJson(one.metrics.json) << '\n';
   } else {
-    print(one.run);
+    printRun(one.run);
     std::cout << one.metrics.text << "results      " << folder.metrics() << ", run.json, ...\n";
   }
   std::cout.flush();
@@ -96,7 +96,7 @@ int runRepeated(RunSupervisor& supervisor, const RunOptions& options,
     summaryOf(metrics).save(folder.metrics());  // should this be its last
     if (!options.isJson()) {
       std::cout << "run " << number << " of " << options.repeats() << ": ";
-      print(one.run);
+      printRun(one.run);
       std::cout.flush();
     }
     printFailure(one.run);

@@ -91,7 +91,7 @@ bool lacksTruth(const Svar& report) {
   return !poses.isNull() && poses.as<std::uint64_t>() == 0;
 }
 
-Svar describe(const gslam::Coverage& coverage) {
+Svar describeCoverage(const gslam::Coverage& coverage) {
   return Svar::object({{"time", coverage.time},
                        {"frames", coverage.frames},
                        {"tracked_frames", coverage.tracked_frames},
@@ -142,7 +142,7 @@ Accuracy withoutErrors(const std::string& reason, bool lacks_truth, const Trajec
   gslam::Coverage coverage;  // nothing
   if (!how.frames.empty()) coverage = gslam::coverageOf(how.frames);
   if (how.frames.empty() && !truth.empty()) coverage = gslam::coverageOf(truth, estimate);
-  result.json.set("coverage", describe(coverage));
+  result.json.set("coverage", describeCoverage(coverage));
   result.text = "coverage     " + percent(coverage.frames) + " of " +
                 std::to_string(coverage.total_frames) + " frames, " + percent(coverage.time) +
                 " of the time\n";

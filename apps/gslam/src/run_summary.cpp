@@ -16,7 +16,7 @@ bool isNumber(const Svar& value) {
   return value.is<double>() && value.type() != SvarType::boolean;
 }
 
-Svar describe(const std::vector<double>& values) {
+Svar describeNumbers(const std::vector<double>& values) {
   const gslam::Statistics s = gslam::statisticsOf(values);
   return Svar::object({{"mean", s.mean},
                        {"median", s.median},
@@ -36,7 +36,7 @@ Svar summed(const std::vector<Svar>& values) {
   for (const Svar& value : values) {
     if (isNumber(value)) numbers.push_back(value.as<double>());
   }
-  if (!numbers.empty()) return describe(numbers);
+  if (!numbers.empty()) return describeNumbers(numbers);
   const auto object = std::find_if(values.begin(), values.end(), has(SvarType::object));
   if (object != values.end()) {
     Svar result = Svar::object();
@@ -92,7 +92,7 @@ std::vector<Svar> figuresOf(const std::vector<Svar>& metrics) {
   return result;
 }
 
-std::string numberText(const Svar& summary, const std::string& path) {
+std::string figureText(const Svar& summary, const std::string& path) {
   const Svar found = summary.get<Svar>(path, Svar());
   if (found.isNull() || found.type() != SvarType::object) return "none";
   std::ostringstream out;
@@ -146,7 +146,7 @@ std::string summaryText(const Svar& summary) {
       {"memory       peak MB             ", "cost.peak_rss_mb"},
       {"CPU          % of a core         ", "cost.cpu_percent"}};
   for (const auto& figure : kFigures) {
-    out << figure.first << numberText(summary, figure.second) << '\n';
+    out << figure.first << figureText(summary, figure.second) << '\n';
   }
   return out.str();
 }

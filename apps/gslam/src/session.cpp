@@ -35,7 +35,7 @@ gslam::PlayOptions playOptions(const Options& options) {
   return play;
 }
 
-gslam::Svar describe(const gslam::Plugin& plugin) {
+gslam::Svar describePlugin(const gslam::Plugin& plugin) {
   return gslam::Svar::object(
       {{"name", plugin.name}, {"version", plugin.version}, {"path", plugin.path}});
 }
@@ -50,13 +50,13 @@ bool hasName(const Factories& factories, const std::string& name) {
 // The plugin that brought a SLAM system or a kind of dataset, and the file it is in.
 gslam::Svar pluginOfSlam(const gslam::Plugins& plugins, const std::string& name) {
   for (const gslam::Plugin& plugin : plugins.loaded()) {
-    if (hasName(plugin.factories.slams(), name)) return describe(plugin);
+    if (hasName(plugin.factories.slams(), name)) return describePlugin(plugin);
   }
   return nullptr;
 }
 gslam::Svar pluginOfDataset(const gslam::Plugins& plugins, const std::string& name) {
   for (const gslam::Plugin& plugin : plugins.loaded()) {
-    if (hasName(plugin.factories.datasets(), name)) return describe(plugin);
+    if (hasName(plugin.factories.datasets(), name)) return describePlugin(plugin);
   }
   return nullptr;
 }

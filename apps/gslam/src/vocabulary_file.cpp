@@ -7,16 +7,13 @@
 #include <gslam/vocabulary/orb_slam_text.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 namespace app {
 namespace {
 
 using Bytes = gslam::Span<const std::uint8_t>;
-
-bool endsIn(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
 
 // What kind of vocabulary some bytes are that could be read as one.
 std::string kindOf(Bytes bytes, const std::string& path) {
@@ -73,8 +70,9 @@ VocabularyFile openVocabularyFile(const std::string& path) {
 }
 
 bool isOrbSlamText(const std::string& path, const std::string& option) {
-  if (endsIn(path, ".txt")) return true;
-  if (endsIn(path, ".gvoc")) return false;
+  const auto extension = std::filesystem::path(path).extension();
+  if (extension == ".txt") return true;
+  if (extension == ".gvoc") return false;
   throw gslam::ConfigError(option, "is '" + path +
                                        "', expected a name that ends in .gvoc (GSLAM's own, opens "
                                        "at once) or .txt (ORB-SLAM's text)");

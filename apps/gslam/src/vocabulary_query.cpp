@@ -16,7 +16,7 @@
 namespace app {
 namespace {
 
-void declare(Options& options) {
+void declareQuery(Options& options) {
   options
       .arg<std::string>("database", "",
                         "file of --save to look the images up in; else in those before each")
@@ -160,7 +160,7 @@ int vocabularyQuery(const std::vector<std::string>& arguments) {
       "Finds places that are seen again: looks each image (files, folders of images, datasets) up "
       "among those before it, or in a database that was saved, and prints those that are most like "
       "it, the best first, with their scores. Images have numbers from 0 on.");
-  declare(options);
+  declareQuery(options);
   if (!options.read(arguments)) return kSuccess;
   if (options.words().empty()) throw gslam::ConfigError("VOCABULARY", "must be given");
   checkOptions(options);

@@ -43,7 +43,7 @@ std::size_t bytesOfText(const std::string& option, const std::string& text) {
   return static_cast<std::size_t>(bytes);
 }
 
-void declare(Options& options) {
+void declareTraining(Options& options) {
   options.arg<std::string>("out", "file to write: .gvoc (GSLAM's own) or .txt (ORB-SLAM's text)")
       .shortName("o");
   options.arg<std::string>("feature", "orb", "kind of features")
@@ -221,7 +221,7 @@ int vocabularyTrain(const std::vector<std::string>& arguments) {
       "kept in a temporary file beside FILE meanwhile, so there may be more than the "
       "memory holds. The result depends on the images, their order and the options, not "
       "on the number of threads.");
-  declare(options);
+  declareTraining(options);
   if (!options.read(arguments)) return kSuccess;
   return Training(options).run();
 }

@@ -24,7 +24,7 @@ void printLine(const ImageBag& image) {
   std::cout << '\n';
 }
 
-gslam::Svar describe(const ImageBag& image) {
+gslam::Svar describeBag(const ImageBag& image) {
   return gslam::Svar::object({{"image", image.name},
                               {"features", image.features},
                               {"words", image.bow.words},
@@ -53,7 +53,7 @@ int vocabularyTransform(const std::vector<std::string>& arguments) {
       forEachBag(options, file.vocabulary, {options.words().begin() + 1, options.words().end()},
                  options.get<std::uint32_t>("levels-up"), [&](const ImageBag& image) {
                    if (options.isJson()) {
-                     list.add(describe(image));
+                     list.add(describeBag(image));
                    } else {
                      printLine(image);
                    }

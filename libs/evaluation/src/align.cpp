@@ -13,7 +13,7 @@ namespace gslam {
 inline namespace v1 {
 namespace {
 
-constexpr const char* kMethodNames[] = {"none", "origin", "se3", "sim3", "scale", "yaw"};
+constexpr const char* kAlignmentNames[] = {"none", "origin", "se3", "sim3", "scale", "yaw"};
 // Spread across a line, as part of that along it, below which positions lie on the line: the last
 // digits of usual files.
 constexpr double kThin = 1e-6;
@@ -50,15 +50,15 @@ double trace(const Mat3d& m) {
 }
 
 // How positions lie, by their standard deviations along the main axes.
-enum class Shape : std::uint8_t { point, line, wide };
+enum class Extent : std::uint8_t { point, line, wide };
 
-Shape shapeOf(const Mat3d& covariance, double largest) {
+Extent extentOf(const Mat3d& covariance, double largest) {
   const double rounding = 64 * std::numeric_limits<double>::epsilon() * largest;
   const Vec3d variances = detail::SymmetricEigen<double, 3>(covariance).values;
   const double along = std::sqrt(std::max(variances[0], 0.0));
   const double across = std::sqrt(std::max(variances[1], 0.0));
-  if (!(along > rounding)) return Shape::point;
-  return across > kThin * along && across > rounding ? Shape::wide : Shape::line;
+  if (!(along > rounding)) return Extent::point;
+  return across > kThin * along && across > rounding ? Extent::wide : Extent::line;
 }
 
 Alignment refused(const std::string& reason) {
@@ -94,11 +94,11 @@ std::string problemOf(const Moments& m, std::size_t count) {
            " not fix a rotation, 3 are needed";
   }
   for (const bool is_reference : {true, false}) {
-    const Shape shape = shapeOf(is_reference ? m.reference : m.estimate, m.largest);
-    if (shape == Shape::wide) continue;
+    const Extent shape = extentOf(is_reference ? m.reference : m.estimate, m.largest);
+    if (shape == Extent::wide) continue;
     return std::string("all positions of ") + nameOf(is_reference) +
-           (shape == Shape::point ? " are the same" : " lie on a line") + ", so any rotation" +
-           (shape == Shape::point ? "" : " about it") + " fits as well";
+           (shape == Extent::point ? " are the same" : " lie on a line") + ", so any rotation" +
+           (shape == Extent::point ? "" : " about it") + " fits as well";
   }
   return "";
 }
@@ -125,7 +125,7 @@ Alignment alignInSpace(const Moments& m, std::size_t count, bool has_scale) {
 
 Alignment alignScale(const Moments& m) {
   for (const bool is_reference : {true, false}) {
-    if (shapeOf(is_reference ? m.reference : m.estimate, m.largest) != Shape::point) continue;
+    if (extentOf(is_reference ? m.reference : m.estimate, m.largest) != Extent::point) continue;
     return refused(std::string("all positions of ") + nameOf(is_reference) +
                    " are the same, so they have no scale; --align origin or none works");
   }
@@ -183,13 +183,13 @@ std::vector<Vec3d> positionsOf(const std::vector<SE3d>& poses) {
 
 const char* alignmentMethodName(AlignmentMethod method) noexcept {
   const auto i = static_cast<std::size_t>(method);
-  return i < 6 ? kMethodNames[i] : "unknown";
+  return i < 6 ? kAlignmentNames[i] : "unknown";
 }
 
 AlignmentOptions parseAlignment(const std::string& text) {
   AlignmentOptions options;
   for (std::uint8_t i = 0; i < 6; ++i) {
-    if (text != kMethodNames[i]) continue;
+    if (text != kAlignmentNames[i]) continue;
     options.method = static_cast<AlignmentMethod>(i);
     return options;
   }

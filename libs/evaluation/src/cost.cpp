@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMegabyte = 1e6;
 
-Svar describe(const Statistics& s) {
+Svar describeTimes(const Statistics& s) {
   const auto value = [&s](double number) { return s.count > 0 ? Svar(number) : Svar(); };
   return Svar::object({{"median", value(s.median)},
                        {"p90", value(s.p90)},
@@ -29,9 +29,9 @@ void describeFrames(const Cost& cost, Svar& out) {
                                   {"results", cost.results},
                                   {"dropped", cost.dropped},
                                   {"overlapping", cost.overlapping}}));
-  out.set("frame_ms", describe(cost.frame_ms));
-  out.set("feed_ms", describe(cost.feed_ms));
-  out.set("cpu_ms", describe(cost.cpu_ms));
+  out.set("frame_ms", describeTimes(cost.frame_ms));
+  out.set("feed_ms", describeTimes(cost.feed_ms));
+  out.set("cpu_ms", describeTimes(cost.cpu_ms));
   out.set("cpu_ms_per_frame", cost.delivered > 0 ? Svar(cost.cpu_ms_per_frame) : Svar());
   out.set("frames_per_second", cost.frames_per_second > 0 ? Svar(cost.frames_per_second) : Svar());
 }

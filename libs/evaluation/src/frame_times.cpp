@@ -3,12 +3,13 @@
 #include <gslam/evaluation/frame_times.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <deque>
 #include <mutex>
 #include <unordered_map>
 #include <utility>
+
+#include "steady_time.h"
 
 namespace gslam {
 inline namespace v1 {
@@ -16,12 +17,6 @@ namespace {
 
 bool isFinite(const SE3d& pose) {
   return std::all_of(pose.data(), pose.data() + 7, [](double x) { return std::isfinite(x); });
-}
-
-std::int64_t now() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
 }
 
 // Milliseconds with all digits of a nanosecond, whatever the locale.
@@ -39,7 +34,7 @@ class MeasuredSlam::Impl {
       : slam_(std::move(slam)),
         tree_(std::move(options.tree)),
         on_frame_(std::move(options.on_frame)),
-        start_(now()) {}
+        start_(detail::steadyTime()) {}
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
@@ -48,7 +43,7 @@ class MeasuredSlam::Impl {
   void begin(Subscriber subscriber) {
     subscriber_ = std::move(subscriber);
     const std::lock_guard<std::mutex> lock(mutex_);
-    start_ = now();
+    start_ = detail::steadyTime();
     used_before_ = read();
   }
   // No pose is noted after it.
@@ -57,7 +52,7 @@ class MeasuredSlam::Impl {
   void feed(const std::shared_ptr<const Frame>& frame) {
     const std::int64_t delivered = takeDelivered(frame->id);
     const std::size_t index = open(frame->id, frame->stamp, delivered);
-    const std::int64_t before = now();
+    const std::int64_t before = detail::steadyTime();
     try {
       slam_->feed(frame);
     } catch (...) {
@@ -69,7 +64,7 @@ class MeasuredSlam::Impl {
 
   void noteDelivered(std::uint64_t frame, std::int64_t stamp) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    delivered_.push_back({frame, stamp, now()});
+    delivered_.push_back({frame, stamp, detail::steadyTime()});
   }
 
   // Those that were delivered before a frame, or all.
@@ -100,7 +95,7 @@ class MeasuredSlam::Impl {
   }
 
   void take(const TrackedPose& pose) {
-    const std::int64_t time = now();
+    const std::int64_t time = detail::steadyTime();
     std::size_t index = 0;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -133,7 +128,7 @@ class MeasuredSlam::Impl {
 
   void setSeconds(double Impl::*which, std::int64_t begin) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    this->*which = 1e-9 * double(now() - begin);
+    this->*which = 1e-9 * double(detail::steadyTime() - begin);
   }
   double seconds(double Impl::*which) const {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -183,11 +178,11 @@ class MeasuredSlam::Impl {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       const auto is_it = [frame](const Delivery& delivery) { return delivery.frame == frame; };
-      if (std::none_of(delivered_.begin(), delivered_.end(), is_it)) return now();
+      if (std::none_of(delivered_.begin(), delivered_.end(), is_it)) return detail::steadyTime();
     }
     dropWaiting(&frame);
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (delivered_.empty()) return now();  // another thread dropped it
+    if (delivered_.empty()) return detail::steadyTime();  // another thread dropped it
     const std::int64_t time = delivered_.front().time;
     delivered_.pop_front();
     return time;
@@ -215,7 +210,7 @@ class MeasuredSlam::Impl {
   }
 
   void close(std::size_t index, std::int64_t before) {
-    const std::int64_t time = now();
+    const std::int64_t time = detail::steadyTime();
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       Entry& entry = entries_[index];
@@ -263,7 +258,7 @@ void MeasuredSlam::configure(const SlamSetup& setup) {
   impl_->begin(setup.messenger.subscribe<TrackedPose>("pose", [weak](const TrackedPose& pose) {
     if (const std::shared_ptr<Impl> impl = weak.lock()) impl->take(pose);
   }));
-  const std::int64_t before = now();
+  const std::int64_t before = detail::steadyTime();
   impl_->slam()->configure(setup);
   impl_->setSeconds(&Impl::configure_seconds_, before);
 }
@@ -279,13 +274,13 @@ std::shared_ptr<const Map> MeasuredSlam::map() {
 
 void MeasuredSlam::finish() {
   impl_->dropWaiting();
-  const std::int64_t before = now();
+  const std::int64_t before = detail::steadyTime();
   impl_->slam()->finish();
   impl_->setSeconds(&Impl::finish_seconds_, before);
 }
 
 void MeasuredSlam::noteDropped(std::uint64_t frame, std::int64_t stamp) {
-  impl_->drop(frame, stamp, now());
+  impl_->drop(frame, stamp, detail::steadyTime());
 }
 void MeasuredSlam::noteDelivered(std::uint64_t frame, std::int64_t stamp) {
   impl_->noteDelivered(frame, stamp);

@@ -14,7 +14,7 @@ namespace gslam {
 inline namespace v1 {
 namespace {
 
-constexpr const char* kMethodNames[] = {"one-to-one", "interpolate", "evo"};
+constexpr const char* kAssociationNames[] = {"one-to-one", "interpolate", "evo"};
 
 using Stamps = std::vector<std::int64_t>;
 
@@ -256,12 +256,12 @@ TimeOffset offsetOf(const Trajectory& reference, const Trajectory& estimate,
 
 const char* associationMethodName(AssociationMethod method) noexcept {
   const auto i = static_cast<std::size_t>(method);
-  return i < 3 ? kMethodNames[i] : "unknown";
+  return i < 3 ? kAssociationNames[i] : "unknown";
 }
 
 AssociationMethod associationMethod(const std::string& name) {
   for (std::uint8_t i = 0; i < 3; ++i) {
-    if (name == kMethodNames[i]) return static_cast<AssociationMethod>(i);
+    if (name == kAssociationNames[i]) return static_cast<AssociationMethod>(i);
   }
   throw ArgumentError("association", "is '" + name + "', expected one-to-one, interpolate or evo");
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstddef>
 #include <iterator>
 #include <map>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "proc_files.h"
+#include "steady_time.h"
 
 #if defined(__linux__)
 #include <sys/resource.h>
@@ -42,12 +42,6 @@ ProcessUsage usedBetween(const ProcessUsage& earlier, const ProcessUsage& later)
 namespace {
 
 using detail::ProcStat;
-
-std::int64_t now() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 // Totals that only grow.
 struct Totals {
@@ -239,7 +233,7 @@ class ProcessTree::Impl {
         if (problem == 0) takeChildren();
       }
     }
-    if (!is_told && now() >= next_scan_) scan();
+    if (!is_told && detail::steadyTime() >= next_scan_) scan();
   }
 
   void takeChildren() {
@@ -256,7 +250,7 @@ class ProcessTree::Impl {
   }
 
   void scan() {
-    const std::int64_t begin = now();
+    const std::int64_t begin = detail::steadyTime();
     std::vector<long> all;
     detail::numbersIn(options_.proc, all);
     std::map<long, ProcStat> others;
@@ -274,7 +268,7 @@ class ProcessTree::Impl {
         it = is_ours ? others.erase(it) : std::next(it);
       }
     }
-    next_scan_ = now() + 400 * (now() - begin);
+    next_scan_ = detail::steadyTime() + 400 * (detail::steadyTime() - begin);
   }
 
   // False when it has ended; then it stays as it was.
@@ -400,7 +394,7 @@ class ProcessTree::Impl {
 
   ProcessUsage sum() {
     ProcessUsage usage;
-    usage.time = now();
+    usage.time = detail::steadyTime();
     Totals totals = gone_;
     clocks_read_.clear();
     std::int64_t other_cpu = gone_.cpu;

@@ -17,9 +17,9 @@ std::string format(const char* pattern, ...) {
 }
 
 // A table of errors, with the coverage in each line.
-class Table {
+class TextTable {
  public:
-  Table(const Coverage& coverage, std::string& out)
+  TextTable(const Coverage& coverage, std::string& out)
       : covered_(format("%5.1f %%", 100 * coverage.time)), out_(out) {
     out_ += format("\n%-24s %-5s %10s %10s %10s %10s %10s %8s %8s\n", "error", "unit", "rmse",
                    "mean", "median", "std", "max", "count", "coverage");
@@ -88,7 +88,7 @@ void printAlignment(const Evaluation& e, std::string& out) {
   }
 }
 
-void printErrors(const Evaluation& e, Table& table) {
+void printErrors(const Evaluation& e, TextTable& table) {
   if (e.has_ape) {
     table.add("APE translation", "m", e.ape.translation);
     table.add("APE rotation", "deg", e.ape.rotation_deg);
@@ -113,7 +113,7 @@ void printBins(const std::vector<KittiBin>& bins, const char* unit, std::string&
   }
 }
 
-void printKitti(const KittiErrors& kitti, Table& table) {
+void printKitti(const KittiErrors& kitti, TextTable& table) {
   if (kitti.count == 0) {
     table.out() += "KITTI                    none: " + kitti.reason + '\n';
     return;
@@ -124,7 +124,7 @@ void printKitti(const KittiErrors& kitti, Table& table) {
   printBins(kitti.speeds, "m/s", table.out());
 }
 
-void printSummary(const Evaluation& e, Table& table) {
+void printSummary(const Evaluation& e, TextTable& table) {
   if (e.options.has_kitti && e.has_relative) printKitti(e.kitti, table);
   if (e.has_relative && e.drift.length > 0) {
     table.add("drift", format("%.4f %%, %.6f deg/m over %.6g m", e.drift.translation_percent,
@@ -156,7 +156,7 @@ std::string evaluationText(const Evaluation& evaluation) {
   printAssociation(evaluation, out);
   printCoverage(evaluation.coverage, out);
   printAlignment(evaluation, out);
-  Table table(evaluation.coverage, out);
+  TextTable table(evaluation.coverage, out);
   printErrors(evaluation, table);
   printSummary(evaluation, table);
   return out;

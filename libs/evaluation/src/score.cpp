@@ -25,7 +25,7 @@ struct Part {
 };
 
 // Scales for which something is right.
-struct Interval {
+struct ScaleRange {
   double least, most;
 };
 
@@ -161,7 +161,7 @@ class Scorer {
     double pp, pq, qq;
   };
 
-  static bool scalesOf(const Products& m, double most, Interval& scales) {
+  static bool scalesOf(const Products& m, double most, ScaleRange& scales) {
     const double rest = m.qq - most * most;
     if (!(m.pp > 0)) {
       scales = {0, std::numeric_limits<double>::infinity()};
@@ -200,8 +200,8 @@ class Scorer {
   // The scales for which any of the ways is right. Nearly always they are one interval, so those
   // that touch what there is join it at once, and only the others are sorted.
   static void addUnion(const std::vector<Products>& products, double most, Ends& ends) {
-    std::vector<Interval> apart;
-    Interval joined = {1, 0}, one;
+    std::vector<ScaleRange> apart;
+    ScaleRange joined = {1, 0}, one;
     for (const Products& product : products) {
       if (!scalesOf(product, most, one)) continue;
       if (joined.least > joined.most) joined = one;
@@ -214,7 +214,7 @@ class Scorer {
     if (joined.least > joined.most) return;
     apart.push_back(joined);
     std::sort(apart.begin(), apart.end(),
-              [](const Interval& a, const Interval& b) { return a.least < b.least; });
+              [](const ScaleRange& a, const ScaleRange& b) { return a.least < b.least; });
     for (std::size_t i = 0; i < apart.size();) {
       double end = apart[i].most;
       std::size_t j = i + 1;

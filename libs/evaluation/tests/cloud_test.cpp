@@ -19,7 +19,7 @@ using gslam::SIM3d;
 using gslam::Vec3d;
 using Cloud = std::vector<MapPoint>;
 
-MapPoint at(const Vec3d& position) {
+MapPoint pointAt(const Vec3d& position) {
   MapPoint point;
   point.position = position;
   return point;
@@ -30,7 +30,7 @@ Cloud somePoints(std::size_t count, unsigned seed) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   Cloud cloud;
   for (std::size_t i = 0; i < count; ++i) {
-    cloud.push_back(at({{3 * uniform(random), 2 * uniform(random), uniform(random)}}));
+    cloud.push_back(pointAt({{3 * uniform(random), 2 * uniform(random), uniform(random)}}));
   }
   return cloud;
 }
@@ -76,8 +76,8 @@ TEST(cloud, a_wall_that_is_off_is_off_by_that) {
   for (int i = 0; i < 100; ++i) {
     for (int j = 0; j < 100; ++j) {
       const Vec3d place = {{0.02 * i, 0.02 * j, 0}};
-      wall.push_back(at(place));
-      if (i % 2 == 0) cloud.push_back(at(place + Vec3d{{0, 0, 0.03}}));
+      wall.push_back(pointAt(place));
+      if (i % 2 == 0) cloud.push_back(pointAt(place + Vec3d{{0, 0, 0.03}}));
     }
   }
   const CloudErrors errors = cloudErrors(wall, cloud);
@@ -114,8 +114,8 @@ TEST(cloud, the_alignment_counts_and_is_refined) {
 TEST(cloud, outliers_are_counted_and_left_out) {
   const Cloud reference = somePoints(500, 4);
   Cloud cloud(reference.begin(), reference.begin() + 100);
-  cloud.push_back(at({{50, 0, 0}}));
-  cloud.push_back(at({{0, std::nan(""), 0}}));
+  cloud.push_back(pointAt({{50, 0, 0}}));
+  cloud.push_back(pointAt({{0, std::nan(""), 0}}));
   CloudOptions options;
   options.max_distance = 1;
   const CloudErrors errors = cloudErrors(reference, cloud, options);
@@ -127,7 +127,7 @@ TEST(cloud, outliers_are_counted_and_left_out) {
 
 TEST(cloud, refining_that_cannot_be_says_why) {
   const Cloud reference = somePoints(50, 5);
-  const Cloud one = {at({{0, 0, 0}})};
+  const Cloud one = {pointAt({{0, 0, 0}})};
   CloudOptions options;
   options.icp_rounds = 5;
   EXPECT_FALSE(cloudErrors(reference, one, options).reason.empty());
@@ -141,7 +141,7 @@ TEST(cloud, refuses_wrong_arguments) {
   const Cloud some = somePoints(5, 7), none;
   EXPECT_THROW(cloudErrors(none, some), gslam::ArgumentError);
   EXPECT_THROW(cloudErrors(some, none), gslam::ArgumentError);
-  const Cloud no_number = {at({{0, 0, std::nan("")}})};
+  const Cloud no_number = {pointAt({{0, 0, std::nan("")}})};
   EXPECT_THROW(cloudErrors(some, no_number), gslam::ArgumentError);
   CloudOptions options;
   options.threshold = 0;

@@ -223,17 +223,17 @@ TEST(evaluate, one_pose) {
 
 // ---- files as they come
 
-Trajectory read(const std::string& text, gslam::TrajectoryFileOptions options = {}) {
+Trajectory readText(const std::string& text, gslam::TrajectoryFileOptions options = {}) {
   return gslam::parseTrajectory(text, "file", options);
 }
 
 TEST(evaluate, files_with_what_people_do_to_them) {
   const Trajectory truth =
-      read("0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 1 1 0 0 0 0 1\n3 1 1 1 0 0 0 1\n");
+      readText("0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 1 1 0 0 0 0 1\n3 1 1 1 0 0 0 1\n");
   EvaluationOptions options;
   options.alignment.method = gslam::AlignmentMethod::none;
   // Windows line ends, another order, tabs, comments, a sign, quaternions of nearly length 1.
-  const Trajectory odd = read(
+  const Trajectory odd = readText(
       "\xef\xbb\xbf# made by hand\r\n3\t1 1\t1 0 0 0 1.001\r\n\r\n1 +1.0 0 0  0 0 0 0.999 # "
       "here\r\n"
       "0 0 0 0 0 0 0 -1\r\n2 1e0 1 0 0 0 0 1\r\n");
@@ -247,11 +247,11 @@ TEST(evaluate, files_that_are_wrong_are_refused_by_name) {
   for (const char* const text :
        {"", "# nothing\n", "0 0 0 nan 0 0 0 1\n", "0 0 0 inf 0 0 0 1\n", "0 0 0 0 0 0 0 0\n",
         "0 0 0 0 0 0 0 2\n", "0 0 0 0 0 0 0\n", "0 0 0 0 0 0 0 1\n0 1 0 0 0 0 0 1\n"}) {
-    EXPECT_THROW(read(text), gslam::ParseError) << text;
+    EXPECT_THROW(readText(text), gslam::ParseError) << text;
   }
   gslam::TrajectoryFileOptions first;
   first.duplicates = gslam::DuplicateStamps::keep_first;
-  EXPECT_EQ(read("0 0 0 0 0 0 0 1\n0 1 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n", first).size(), 2U);
+  EXPECT_EQ(readText("0 0 0 0 0 0 0 1\n0 1 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n", first).size(), 2U);
 }
 
 TEST(evaluate, a_million_poses) {

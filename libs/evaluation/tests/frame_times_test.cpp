@@ -65,7 +65,7 @@ void publish(const Frame& fed, const gslam::Publisher<TrackedPose>& pose) {
   pose.publish(poseOf(fed.id));
 }
 
-void burn(double seconds) {
+void burnThread(double seconds) {
   timespec time = {};
   const auto now = [&time] {
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
@@ -130,7 +130,7 @@ TEST(MeasuredSlam, timesFromDeliveryToThePose) {
       std::make_shared<ToldSlam>([](const Frame& fed, const gslam::Publisher<TrackedPose>& pose) {
         wait(20);
         pose.publish(poseOf(fed.id, TrackingState::guessed));
-        burn(0.03);
+        burnThread(0.03);
         pose.publish(poseOf(fed.id));  // a correction
       }));
   slam.configure({});
@@ -164,7 +164,7 @@ TEST(MeasuredSlam, takesPosesThatComeLater) {
   slam.feed(frame(1));
   slam.feed(frame(2));
   std::thread worker([&] {
-    burn(0.02);
+    burnThread(0.02);
     inside->pose_.publish(poseOf(2));
     inside->pose_.publish(poseOf(77));  // of no frame that was fed
   });
@@ -182,8 +182,8 @@ TEST(MeasuredSlam, takesPosesThatComeLater) {
 TEST(MeasuredSlam, countsThreadsInside) {
   MeasuredSlam slam(
       std::make_shared<ToldSlam>([](const Frame& fed, const gslam::Publisher<TrackedPose>& pose) {
-        std::thread other([] { burn(0.03); });
-        burn(0.03);
+        std::thread other([] { burnThread(0.03); });
+        burnThread(0.03);
         other.join();
         pose.publish(poseOf(fed.id));
       }));
@@ -367,7 +367,7 @@ TEST(MeasuredSlam, countsOverlappingFramesOnce) {
   constexpr std::size_t kFrames = 20;
   MeasuredSlam slam(std::make_shared<gslam::SlamThread>(
       std::make_shared<ToldSlam>([](const Frame& fed, const gslam::Publisher<TrackedPose>& pose) {
-        burn(0.005);
+        burnThread(0.005);
         pose.publish(poseOf(fed.id));
       }),
       std::size_t(8)));
@@ -442,7 +442,7 @@ TEST(MeasuredSlam, measuresAnIsolatedOneAlone) {
   slam.configure(setup);
   std::atomic<bool> is_over(false);
   std::thread busy([&] {  // this process's own, which does not count
-    while (!is_over) burn(0.001);
+    while (!is_over) burnThread(0.001);
   });
   for (std::uint64_t id = 0; id < 5; ++id) slam.feed(frame(id));
   slam.finish();

@@ -27,7 +27,7 @@ AssociationOptions by(AssociationMethod method, std::int64_t max_dt = 10 * kMill
   return options;
 }
 
-Trajectory at(const std::vector<std::int64_t>& stamps) {
+Trajectory posesAt(const std::vector<std::int64_t>& stamps) {
   std::vector<gslam::StampedPose> poses;
   for (const std::int64_t stamp : stamps)
     poses.push_back({stamp, made::poseAt(1e-9 * double(stamp))});
@@ -46,8 +46,8 @@ std::string messageOf(const Trajectory& reference, const Trajectory& estimate,
 
 TEST(pairs, one_to_one_and_evo_differ_as_they_say) {
   // Both of the estimate's first two are nearest to the reference's first.
-  const Trajectory reference = at({0, 100 * kMilli, 200 * kMilli});
-  const Trajectory estimate = at({1 * kMilli, 3 * kMilli, 203 * kMilli});
+  const Trajectory reference = posesAt({0, 100 * kMilli, 200 * kMilli});
+  const Trajectory estimate = posesAt({1 * kMilli, 3 * kMilli, 203 * kMilli});
   const PosePairs ours = pairPoses(reference, estimate);
   ASSERT_EQ(ours.size(), 2U);
   EXPECT_EQ(ours.estimate_places, (std::vector<std::size_t>{0, 2}));
@@ -63,7 +63,8 @@ TEST(pairs, one_to_one_and_evo_differ_as_they_say) {
 }
 
 TEST(pairs, evo_lets_the_shorter_one_drive) {
-  const Trajectory few = at({0, 100 * kMilli}), many = at({1 * kMilli, 3 * kMilli, 99 * kMilli});
+  const Trajectory few = posesAt({0, 100 * kMilli}),
+                   many = posesAt({1 * kMilli, 3 * kMilli, 99 * kMilli});
   EXPECT_EQ(pairPoses(few, many, by(AssociationMethod::evo)).estimate_places,
             (std::vector<std::size_t>{0, 2}));
   EXPECT_EQ(pairPoses(many, few, by(AssociationMethod::evo)).reference_places,
@@ -113,9 +114,9 @@ TEST(pairs, interpolates_on_se3) {
 }
 
 TEST(pairs, interpolates_over_no_gap_and_not_beyond_the_ends) {
-  const Trajectory reference = at({0, 10 * kMilli, 20 * kMilli, 500 * kMilli, 510 * kMilli});
+  const Trajectory reference = posesAt({0, 10 * kMilli, 20 * kMilli, 500 * kMilli, 510 * kMilli});
   const Trajectory estimate =
-      at({-5 * kMilli, 5 * kMilli, 25 * kMilli, 250 * kMilli, 505 * kMilli, 515 * kMilli});
+      posesAt({-5 * kMilli, 5 * kMilli, 25 * kMilli, 250 * kMilli, 505 * kMilli, 515 * kMilli});
   const PosePairs pairs = pairPoses(reference, estimate, by(AssociationMethod::interpolate));
   EXPECT_EQ(pairs.estimate_places, (std::vector<std::size_t>{1, 2, 4}));
   EXPECT_EQ(pairs.dropped_estimate, 3U);
@@ -131,17 +132,17 @@ TEST(pairs, the_ends_count_as_gaps) {
 TEST(pairs, numbers_of_frames_pair_equals) {
   AssociationOptions options = by(AssociationMethod::one_to_one);
   options.is_numbered = true;
-  const PosePairs pairs = pairPoses(at({0, 1, 2, 3, 4}), at({1, 2, 4, 7}), options);
+  const PosePairs pairs = pairPoses(posesAt({0, 1, 2, 3, 4}), posesAt({1, 2, 4, 7}), options);
   EXPECT_EQ(pairs.reference_places, (std::vector<std::size_t>{1, 2, 4}));
   EXPECT_EQ(pairs.dropped_estimate, 1U);
   options.method = AssociationMethod::evo;
-  EXPECT_EQ(pairPoses(at({0, 1, 2, 3, 4}), at({1, 2, 4, 7}), options).size(), 3U);
+  EXPECT_EQ(pairPoses(posesAt({0, 1, 2, 3, 4}), posesAt({1, 2, 4, 7}), options).size(), 3U);
   options.method = AssociationMethod::interpolate;
-  EXPECT_THROW(pairPoses(at({0, 1}), at({0, 1}), options), gslam::ArgumentError);
+  EXPECT_THROW(pairPoses(posesAt({0, 1}), posesAt({0, 1}), options), gslam::ArgumentError);
   options = by(AssociationMethod::one_to_one);
   options.is_numbered = true;
   options.time_offset = 1;
-  EXPECT_THROW(pairPoses(at({0, 1}), at({0, 1}), options), gslam::ArgumentError);
+  EXPECT_THROW(pairPoses(posesAt({0, 1}), posesAt({0, 1}), options), gslam::ArgumentError);
 }
 
 TEST(pairs, a_given_offset_is_added_to_the_estimate) {
@@ -167,9 +168,9 @@ TEST(pairs, units_are_named) {
       for (std::int64_t i = 0; i < 10; ++i) few.push_back(1000 + i);
     }
     const std::string times = "1e" + std::to_string(power) + " times ";
-    const std::string smaller = messageOf(reference, at(few));
+    const std::string smaller = messageOf(reference, posesAt(few));
     EXPECT_NE(smaller.find(times + "smaller"), std::string::npos) << smaller;
-    const std::string larger = messageOf(at(few), reference);
+    const std::string larger = messageOf(posesAt(few), reference);
     EXPECT_NE(larger.find(times + "larger"), std::string::npos) << larger;
   }
 }
@@ -210,12 +211,12 @@ TEST(pairs, bad_input_is_refused) {
 }
 
 TEST(pairs, survive_the_ends_of_time) {
-  const Trajectory far = at({INT64_MIN, 0, INT64_MAX});
+  const Trajectory far = posesAt({INT64_MIN, 0, INT64_MAX});
   for (const AssociationMethod method :
        {AssociationMethod::one_to_one, AssociationMethod::interpolate, AssociationMethod::evo}) {
     EXPECT_EQ(pairPoses(far, far, by(method)).size(), 3U);
   }
-  EXPECT_EQ(pairPoses(far, at({5})).max_gap, INT64_MAX);
+  EXPECT_EQ(pairPoses(far, posesAt({5})).max_gap, INT64_MAX);
 }
 
 // ---- the offset of two clocks
@@ -286,9 +287,9 @@ TEST(time_offset, is_refused_where_there_is_none_to_find) {
   std::vector<std::int64_t> far = {INT64_MIN};
   for (std::int64_t i = 0; i < 50; ++i) far.push_back(i * kSecond / 20);
   for (const bool is_estimate : {false, true}) {
-    const gslam::TimeOffset none = is_estimate
-                                       ? gslam::estimateTimeOffset(made::trajectory(50), at(far))
-                                       : gslam::estimateTimeOffset(at(far), made::trajectory(50));
+    const gslam::TimeOffset none =
+        is_estimate ? gslam::estimateTimeOffset(made::trajectory(50), posesAt(far))
+                    : gslam::estimateTimeOffset(posesAt(far), made::trajectory(50));
     EXPECT_FALSE(none.is_valid);
     EXPECT_NE(none.reason.find("centuries"), std::string::npos) << none.reason;
   }

@@ -19,7 +19,7 @@ using gslam::ProcessTree;
 using gslam::ResourceMonitor;
 using gslam::ResourceReport;
 
-std::shared_ptr<ProcessTree> treeOf(long root) {
+std::shared_ptr<ProcessTree> sharedTree(long root) {
   gslam::ProcessTreeOptions options;
   options.root = root;
   return std::make_shared<ProcessTree>(options);
@@ -32,7 +32,7 @@ MonitorOptions quick() {
   return options;
 }
 
-void wait(int milliseconds) {
+void sleepFor(int milliseconds) {
   std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
 }
 
@@ -56,7 +56,7 @@ TEST(ResourceMonitor, refusesNonsense) {
 
 TEST(ResourceMonitor, measuresAProgramOfKnownCost) {
   spender::Child child({"burn", "0.5", "2"});
-  const auto tree = treeOf(child.number());
+  const auto tree = sharedTree(child.number());
   ResourceMonitor monitor(tree, quick());
   child.go();
   EXPECT_EQ(child.line(), "done");
@@ -85,11 +85,11 @@ TEST(ResourceMonitor, measuresAProgramOfKnownCost) {
 
 TEST(ResourceMonitor, seesAPeakThatIsOver) {
   spender::Child child({"touch", "100"});
-  const auto tree = treeOf(child.number());
+  const auto tree = sharedTree(child.number());
   ResourceMonitor monitor(tree, quick());
   child.go();
   child.line();
-  wait(100);
+  sleepFor(100);
   child.go();
   EXPECT_EQ(child.line(), "done");
   const ResourceReport report = monitor.stop();
@@ -128,7 +128,7 @@ TEST(ResourceMonitor, keepsItsOverhead) {
   ResourceMonitor monitor(std::make_shared<ProcessTree>(), options);
   timespec before = {}, after = {};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &before);
-  wait(1500);
+  sleepFor(1500);
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &after);
   const ResourceReport report = monitor.stop();
   const double used =
@@ -151,16 +151,16 @@ TEST(ResourceMonitor, takesPeriodsOfAnyLength) {
     options.period = std::chrono::milliseconds(often.first);
     options.most_overhead = often.second;
     ResourceMonitor monitor(std::make_shared<ProcessTree>(), options);
-    wait(50);
+    sleepFor(50);
     EXPECT_LE(monitor.stop().samples_taken, 3u);  // at the begin, at the end, and one of 1 ms
   }
 }
 
 TEST(ResourceMonitor, stopsOnceAndStaysStopped) {
   ResourceMonitor monitor(std::make_shared<ProcessTree>(), quick());
-  wait(20);
+  sleepFor(20);
   const ResourceReport first = monitor.stop();
-  wait(20);
+  sleepFor(20);
   const ResourceReport second = monitor.stop();
   const ResourceReport third = monitor.report();
   EXPECT_EQ(first.samples_taken, second.samples_taken);
@@ -191,12 +191,12 @@ TEST(ResourceMonitor, isForThreads) {
 
 TEST(ResourceMonitor, outlivesTheProcess) {
   spender::Child child({"burn", "0.05", "1"});
-  ResourceMonitor monitor(treeOf(child.number()), quick());
+  ResourceMonitor monitor(sharedTree(child.number()), quick());
   child.go();
   child.line();
-  wait(30);
+  sleepFor(30);
   child.end();
-  wait(30);
+  sleepFor(30);
   const ResourceReport report = monitor.stop();
   EXPECT_GT(report.rss_bytes, 0u);
   EXPECT_NEAR(report.used.cpu_seconds, 0.05, 0.03);
@@ -309,7 +309,7 @@ TEST(ResourceMonitor, readsGpusOfTheSystem) {
   machine.write("class/drm/card1-DP-1/device/gpu_busy_percent", "99\n");  // an output
   ResourceMonitor monitor(std::make_shared<ProcessTree>(), machine.options());
   monitor.report();
-  wait(210);
+  sleepFor(210);
   machine.write("class/drm/card1/device/gpu_busy_percent", "60\n");
   machine.write("class/drm/card1/device/mem_info_vram_used", "900000\n");
   const gslam::GpuReport gpu = monitor.stop().gpu;

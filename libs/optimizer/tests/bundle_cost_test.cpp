@@ -4,11 +4,11 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <random>
 #include <vector>
 
 #include "backend_contract/scenes.h"
+#include "not_finite.h"
 
 namespace {
 
@@ -20,7 +20,7 @@ using gslam::SE3d;
 using gslam::Vec2d;
 using gslam::Vec3d;
 
-const double kNan = std::numeric_limits<double>::quiet_NaN();
+using not_finite::kNan;
 
 // One body at the origin that sees (1, 2, 5) with f = 100: at (20, 40).
 BundleScene onePoint(const Vec2d& off) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "backend_contract/scenes.h"
+#include "not_finite.h"
 
 namespace {
 
@@ -20,7 +21,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+using not_finite::kNan;
 
 // "error field problem" and "warning field problem", one by one.
 std::vector<std::string> findingsOf(const BundleProblem& problem) {

@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "backend_contract/scenes.h"
+#include "not_finite.h"
 
 namespace {
 
@@ -24,8 +24,8 @@ std::string complaintAbout(const std::function<void(OptimizerOptions&)>& change)
   return backend_contract::complaintOf([&] { optimizePose({}, gslam::SE3d(), options); });
 }
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using not_finite::kInfinity;
+using not_finite::kNan;
 
 TEST(check_options, names_the_option_and_what_was_expected) {
   EXPECT_EQ(complaintAbout([](OptimizerOptions& o) { o.max_seconds = -1; }),

@@ -6,11 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <string>
 #include <vector>
 
 #include "backend_contract/scenes.h"
+#include "not_finite.h"
 
 namespace {
 
@@ -23,8 +23,8 @@ using gslam::Vec3d;
 using gslam::Vec4d;
 using testing::HasSubstr;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using not_finite::kInfinity;
+using not_finite::kNan;
 
 // A back end that does nothing, so that only the checks speak.
 OptimizerOptions idleOptions() {

@@ -20,7 +20,7 @@ using gslam::readBal;
 using gslam::writeBal;
 
 // Two cameras, two points, three observations.
-const char* const kText =
+const char* const kBal =
     "2 2 3\n0 0 10 20\n1 0 -3.5 1e1\n1 1 +4 -0.25\n"
     "0.1 0.2 -0.3\n1 2 -3\n500 -1e-3 1e-7\n"
     "-2 1 1.5\n0 0.5 -4\n600 0.01 0\n"
@@ -69,7 +69,7 @@ double costOfText(const std::string& text) {
 }
 
 TEST(file_bal, cameras_look_forward_and_pixels_go_down) {
-  const Bundle bundle = parseBal(kText, "text");
+  const Bundle bundle = parseBal(kBal, "text");
   ASSERT_EQ(bundle.T_world_body.size(), 2u);
   ASSERT_EQ(bundle.points.size(), 2u);
   ASSERT_EQ(bundle.pixels.size(), 3u);
@@ -83,13 +83,13 @@ TEST(file_bal, cameras_look_forward_and_pixels_go_down) {
   for (std::size_t i = 0; i < bundle.pixels.size(); ++i) {
     EXPECT_EQ(bundle.observation_camera[i], bundle.observation_pose[i]);
   }
-  const double cost = costOfText(kText);
+  const double cost = costOfText(kBal);
   EXPECT_NEAR(file_tools::radialCost(bundle), cost, 1e-12 * cost);
 }
 
 TEST(file_bal, what_is_written_has_the_same_cost) {
   const file_tools::NewFolder folder;
-  const Bundle bundle = parseBal(kText, "text");
+  const Bundle bundle = parseBal(kBal, "text");
   writeBal(bundle, folder / "out.txt");
   const Bundle again = readBal(folder / "out.txt");
   const double cost = file_tools::radialCost(bundle);
@@ -147,7 +147,7 @@ TEST(file_bal, bad_text_is_refused_with_its_place) {
   expectParseError(parse("4000000000 4000000000 1\n"), 1, "too short for 4000000000 cameras");
   expectParseError(parse("99999999999 1 1\n"), 1, "expected below 4294967295");
   expectParseError(parse("-1 1 1\n"), 1, "'-1' is the number of cameras");
-  std::string text = kText;
+  std::string text = kBal;
   expectParseError(parse(text + "7\n"), 13, "'7' is too much");
   expectParseError(parse(text.substr(0, text.size() - 4)), 12, "the file ends, expected");
   const auto with = [&](const std::string& from, const std::string& to) {
@@ -169,11 +169,11 @@ TEST(file_bal, bad_text_is_refused_with_its_place) {
 }
 
 TEST(file_bal, spaces_and_small_numbers_do_not_matter) {
-  std::string text = kText;
+  std::string text = kBal;
   text.replace(text.find("1e-7"), 4, "1e-400");  // below all doubles
   std::string windows = "\xEF\xBB\xBF";
   for (const char c : text) windows += c == '\n' ? std::string("\r\n\t") : std::string(1, c);
-  EXPECT_EQ(parseBal(windows, "text").points, parseBal(kText, "text").points);
+  EXPECT_EQ(parseBal(windows, "text").points, parseBal(kBal, "text").points);
 }
 
 TEST(file_bal, files_that_are_no_text_are_refused) {
@@ -191,7 +191,7 @@ TEST(file_bal, files_that_are_no_text_are_refused) {
 
 TEST(file_bal, what_it_cannot_hold_is_refused) {
   const file_tools::NewFolder folder;
-  const Bundle bundle = parseBal(kText, "text");
+  const Bundle bundle = parseBal(kBal, "text");
   const auto refuses = [&](const auto& change, const std::string& words) {
     Bundle changed = bundle;
     change(changed);
@@ -218,7 +218,7 @@ TEST(file_bal, what_it_cannot_hold_is_refused) {
 
 TEST(file_bal, shared_pinhole_cameras_keep_their_cost) {
   const file_tools::NewFolder folder;
-  Bundle bundle = parseBal(kText, "text");
+  Bundle bundle = parseBal(kBal, "text");
   bundle.cameras = {Camera::fromParameters("radtan", 640, 480, {500, 500, 320, 240, 0, 0, 0, 0})};
   bundle.camera_freedom.clear();
   bundle.observation_camera.assign(3, 0);

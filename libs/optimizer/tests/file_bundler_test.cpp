@@ -15,7 +15,7 @@ using gslam::readBundler;
 using gslam::writeBundler;
 
 // The second of three cameras was not registered.
-const char* const kText =
+const char* const kBundler =
     "# Bundle file v0.3\n3 2\n"
     "500 -0.1 0.01\n1 0 0\n0 1 0\n0 0 1\n0.5 0.25 -1\n"
     "0 0 0\n0 0 0\n0 0 0\n0 0 0\n0 0 0\n"
@@ -24,7 +24,7 @@ const char* const kText =
     "3 4 -25\n0 1 2\n1 2 9 1.5 -2.5\n";
 
 TEST(file_bundler, indices_are_those_of_the_list) {
-  const Bundle bundle = parseBundler(kText, "text");
+  const Bundle bundle = parseBundler(kBundler, "text");
   ASSERT_EQ(bundle.T_world_body.size(), 3u);
   ASSERT_EQ(bundle.pixels.size(), 3u);
   EXPECT_EQ(bundle.pose_fixed, (std::vector<std::uint8_t>{0, 1, 0}));
@@ -39,7 +39,7 @@ TEST(file_bundler, indices_are_those_of_the_list) {
 
 TEST(file_bundler, what_is_written_comes_back) {
   const file_tools::NewFolder folder;
-  const Bundle bundle = parseBundler(kText, "text");
+  const Bundle bundle = parseBundler(kBundler, "text");
   writeBundler(bundle, folder / "out");
   EXPECT_EQ(file_tools::contentOf(folder / "out").substr(0, 23), "# Bundle file v0.3\n3 2\n");
   const Bundle again = readBundler(folder / "out");
@@ -71,7 +71,7 @@ TEST(file_bundler, balbianello_is_reprojected_well_and_comes_back) {
 }
 
 TEST(file_bundler, bad_text_is_refused_with_its_place) {
-  const std::string text = kText;
+  const std::string text = kBundler;
   const auto parse = [](const std::string& t) { return [t] { parseBundler(t, "text"); }; };
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string changed = text;

@@ -20,13 +20,13 @@ using gslam::SE3d;
 using gslam::SIM3d;
 using gslam::writeG2o;
 
-const char* const kPlane =
+const char* const kG2oPlane =
     "# poses\nVERTEX_SE2 7 1 2 0.5\nVERTEX_SE2 -3 4 5 -0.25\nFIX 7\n\n"
     "EDGE_SE2 -3 7 0.1 0.2 3.0 4 1 0.5 5 0.25 6\n";
-const char* const kSpace =
+const char* const kG2oSpace =
     "VERTEX_SE3:QUAT 0 1 2 3 0 0 0 1\nVERTEX_SE3:QUAT 1 4 5 6 0 0.6 0 0.8\n"
     "EDGE_SE3:QUAT 0 1 3 3 3 0 0.6 0 0.8 10 1 1 1 1 1 10 1 1 1 1 10 1 1 1 400 4 4 400 4 100\n";
-const char* const kScaled =
+const char* const kG2oScaled =
     "VERTEX_SIM3:QUAT 0 1 2 3 0 0 0 1 2\nVERTEX_SIM3:QUAT 1 4 5 6 0 0.6 0 0.8 0.5\n"
     "EDGE_SIM3:QUAT 0 1 3 3 3 0 0.6 0 0.8 0.25 10 0 0 1 0 0 1 10 0 0 1 0 1 10 0 0 1 1 400 0 0 8 "
     "400 "
@@ -57,7 +57,7 @@ PoseGraph<Group> writtenAndRead(const PoseGraph<Group>& graph) {
 }
 
 TEST(file_g2o, graphs_in_the_plane) {
-  const auto graph = std::get<PoseGraph<SE2d>>(parseG2o(kPlane, "text"));
+  const auto graph = std::get<PoseGraph<SE2d>>(parseG2o(kG2oPlane, "text"));
   EXPECT_EQ(graph.ids.idOf(1), -3);
   EXPECT_EQ(graph.from[0], 1u);
   EXPECT_EQ(graph.to[0], 0u);
@@ -68,7 +68,7 @@ TEST(file_g2o, graphs_in_the_plane) {
 }
 
 TEST(file_g2o, information_of_half_rotation_vectors_becomes_that_of_whole_ones) {
-  const auto graph = std::get<PoseGraph<SE3d>>(parseG2o(kSpace, "text"));
+  const auto graph = std::get<PoseGraph<SE3d>>(parseG2o(kG2oSpace, "text"));
   const SE3d::Jacobian& m = graph.information[0];
   EXPECT_EQ(m(0, 0), 10);
   EXPECT_EQ(m(0, 1), 1);
@@ -87,7 +87,7 @@ TEST(file_g2o, information_of_half_rotation_vectors_becomes_that_of_whole_ones) 
 }
 
 TEST(file_g2o, graphs_with_scales) {
-  const auto graph = std::get<PoseGraph<SIM3d>>(parseG2o(kScaled, "text"));
+  const auto graph = std::get<PoseGraph<SIM3d>>(parseG2o(kG2oScaled, "text"));
   EXPECT_EQ(graph.T_world_body[0].scale(), 2);
   EXPECT_EQ(graph.T_from_to[0].scale(), 0.25);
   EXPECT_EQ(graph.information[0](6, 6), 50);
@@ -139,26 +139,27 @@ TEST(file_g2o, bad_text_is_refused_with_its_place) {
   expectParseError(parse("# nothing\n"), 2, "the file ends");
   expectParseError(parse("FIX\n"), 0, "neither a vertex nor an edge");
   expectParseError(parse("VERTEX_XY 0 1 2\n"), 1, "'VERTEX_XY' is not supported here, expected");
-  expectParseError(with(kPlane, "EDGE_SE2", "EDGE_SE2_XY"), 6, "'EDGE_SE2_XY'");
-  expectParseError(parse(std::string(kPlane) + kSpace), 7, "all of one kind");
-  expectParseError(with(kPlane, "SE2 -3", "SE2 7"), 3, "'7' is a vertex that is there already");
-  expectParseError(with(kPlane, "FIX 7", "FIX 8"), 4, "vertex 8 is not in the file");
-  expectParseError(with(kPlane, "-3 7 0.1", "-3 6 0.1"), 6, "vertex 6 is not in the file");
-  expectParseError(with(kPlane, "-3 7 0.1", "7 7 0.1"), 6, "joined to itself");
-  expectParseError(with(kPlane, "0.25 6", "0.25"), 6, "the line ends");
-  expectParseError(with(kPlane, "0.25 6", "0.25 6 7"), 6, "'7' is too much");
-  expectParseError(with(kPlane, "0.25 6", "0.25 -6"), 6, "not positive semi-definite");
-  expectParseError(with(kPlane, "0.1 0.2", "inf 0.2"), 6, "'inf'");
-  expectParseError(with(kSpace, "0 0.6 0 0.8\nEDGE", "0 6 0 8\nEDGE"), 2, "quaternion of norm 10");
-  expectParseError(with(kScaled, "0.8 0.25", "0.8 0"), 3, "is a scale, expected one above 0");
-  for (const char* const text : {kPlane, kSpace, kScaled}) {
+  expectParseError(with(kG2oPlane, "EDGE_SE2", "EDGE_SE2_XY"), 6, "'EDGE_SE2_XY'");
+  expectParseError(parse(std::string(kG2oPlane) + kG2oSpace), 7, "all of one kind");
+  expectParseError(with(kG2oPlane, "SE2 -3", "SE2 7"), 3, "'7' is a vertex that is there already");
+  expectParseError(with(kG2oPlane, "FIX 7", "FIX 8"), 4, "vertex 8 is not in the file");
+  expectParseError(with(kG2oPlane, "-3 7 0.1", "-3 6 0.1"), 6, "vertex 6 is not in the file");
+  expectParseError(with(kG2oPlane, "-3 7 0.1", "7 7 0.1"), 6, "joined to itself");
+  expectParseError(with(kG2oPlane, "0.25 6", "0.25"), 6, "the line ends");
+  expectParseError(with(kG2oPlane, "0.25 6", "0.25 6 7"), 6, "'7' is too much");
+  expectParseError(with(kG2oPlane, "0.25 6", "0.25 -6"), 6, "not positive semi-definite");
+  expectParseError(with(kG2oPlane, "0.1 0.2", "inf 0.2"), 6, "'inf'");
+  expectParseError(with(kG2oSpace, "0 0.6 0 0.8\nEDGE", "0 6 0 8\nEDGE"), 2,
+                   "quaternion of norm 10");
+  expectParseError(with(kG2oScaled, "0.8 0.25", "0.8 0"), 3, "is a scale, expected one above 0");
+  for (const char* const text : {kG2oPlane, kG2oSpace, kG2oScaled}) {
     file_tools::expectNoCrashForBeginnings(text, [](const std::string& t) { parseG2o(t, "text"); });
   }
 }
 
 TEST(file_g2o, what_it_cannot_hold_is_refused) {
   const file_tools::NewFolder folder;
-  auto graph = std::get<PoseGraph<SE3d>>(parseG2o(kSpace, "text"));
+  auto graph = std::get<PoseGraph<SE3d>>(parseG2o(kG2oSpace, "text"));
   graph.prior_pose = {0};
   expectArgumentError([&] { writeG2o(graph, folder / "out"); }, "cannot hold priors");
   graph.prior_pose.clear();

@@ -12,7 +12,7 @@ namespace {
 
 using pose_graph_test::disturb;
 using pose_graph_test::Graph;
-using pose_graph_test::Random;
+using pose_graph_test::GraphRandom;
 using pose_graph_test::sameBits;
 using pose_graph_test::walk;
 
@@ -26,7 +26,7 @@ TYPED_TEST_SUITE(InitializePoses, InitialGroups, );
 
 template <class Group>
 void forget(Graph<Group>& graph, std::size_t first = 1) {
-  Random random(99);
+  GraphRandom random(99);
   for (std::size_t i = first; i < graph.T_world_body.size(); ++i) {
     if (graph.pose_fixed.empty() || graph.pose_fixed[i] == 0)
       graph.T_world_body[i] = random.pose<Group>(1);
@@ -95,7 +95,7 @@ TYPED_TEST(InitializePoses, each_part_begins_at_its_lowest_pose) {
     graph.is_robust.clear();
     graph.T_world_body.insert(graph.T_world_body.end(), other.T_world_body.begin(),
                               other.T_world_body.end());
-    graph.T_world_body.push_back(Random(7).pose<TypeParam>(1));  // without edges
+    graph.T_world_body.push_back(GraphRandom(7).pose<TypeParam>(1));  // without edges
     const std::vector<TypeParam> truth = graph.T_world_body;
     forget(graph);
     graph.T_world_body[15] = truth[15];

@@ -28,9 +28,9 @@ struct Graph : gslam::PoseGraph<Group> {
   }
 };
 
-class Random {
+class GraphRandom {
  public:
-  explicit Random(std::uint64_t seed) : random_(seed) {}
+  explicit GraphRandom(std::uint64_t seed) : random_(seed) {}
   double normal() { return normal_(random_); }
   std::size_t below(std::size_t n) { return random_() % n; }
   template <class Group>
@@ -60,7 +60,7 @@ class Random {
 // A walk with loops to random poses before it; poses are the truth.
 template <class Group>
 Graph<Group> walk(std::size_t poses, std::size_t loops, double noise, std::uint64_t seed) {
-  Random random(seed);
+  GraphRandom random(seed);
   Graph<Group> graph;
   graph.T_world_body.push_back(random.pose<Group>(0.5));
   for (std::size_t i = 1; i < poses; ++i) {
@@ -82,7 +82,7 @@ Graph<Group> walk(std::size_t poses, std::size_t loops, double noise, std::uint6
 // The truth with noise, but for the poses that are held.
 template <class Group>
 void disturb(Graph<Group>& graph, double noise, std::uint64_t seed, std::size_t first = 1) {
-  Random random(seed);
+  GraphRandom random(seed);
   for (std::size_t i = first; i < graph.T_world_body.size(); ++i) {
     if (graph.pose_fixed.empty() || graph.pose_fixed[i] == 0)
       graph.T_world_body[i] *= random.pose<Group>(noise);

@@ -6,9 +6,10 @@
 namespace visual {
 namespace {
 
-constexpr int kCell = 35;   // pixels: each cell of a level may have corners of its own threshold
+constexpr int kCornerCell =
+    35;                     // pixels: each cell of a level may have corners of its own threshold
 constexpr int kAround = 4;  // pixels around a corner that FAST and its neighbours look at
-constexpr int kTile = kCell + 2 * kAround;
+constexpr int kTile = kCornerCell + 2 * kAround;
 constexpr int kTileColumns = 16;
 
 // The first pixel of part i, of `count` parts of `size` pixels.
@@ -31,8 +32,8 @@ void CornerFinder::find(const Pyramid& pyramid, std::size_t sheet) {
     Level& level = levels_[std::size_t(i)];
     level.spots.clear();
     level.strong = 0;
-    level.columns = (area.width + kCell - 1) / kCell;
-    level.rows = (area.height + kCell - 1) / kCell;
+    level.columns = (area.width + kCornerCell - 1) / kCornerCell;
+    level.rows = (area.height + kCornerCell - 1) / kCornerCell;
     level.has_corner.assign(std::size_t(level.columns) * std::size_t(level.rows), 0);
   }
   cv::FAST(pyramid.sheet(sheet), keys_, threshold_, true);

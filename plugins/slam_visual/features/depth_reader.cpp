@@ -14,8 +14,8 @@ using gslam::PixelType;
 using gslam::Vec2d;
 using gslam::Vec3d;
 
-constexpr float kEdge = 1.1F;        // ratio of depths beside each other that is an edge
-constexpr double kSameAngle = 1e-6;  // radians, and metres, between cameras that are one
+constexpr float kEdge = 1.1F;         // ratio of depths beside each other that is an edge
+constexpr double kSameCamera = 1e-6;  // radians, and metres, between cameras that are one
 
 // Depths in rows, as numbers of an image or as metres.
 template <class T>
@@ -77,7 +77,7 @@ void readRows(const DepthRows<T>& rows, int cell, const std::vector<Feature>& fe
 DepthReader::DepthReader(const Eye& eye, const gslam::Camera& camera,
                          const gslam::SE3d& T_body_depth)
     : eye_(eye), camera_(camera), T_eye_depth_(eye.T_body_camera.inverse() * T_body_depth) {
-  is_same_ = camera == eye.camera && T_eye_depth_.isApprox(gslam::SE3d(), kSameAngle);
+  is_same_ = camera == eye.camera && T_eye_depth_.isApprox(gslam::SE3d(), kSameCamera);
   if (is_same_) return;
   // Two pixels of the eye: holes between points that fall beside each other stay rare. More where
   // the depth camera has fewer pixels.

@@ -22,7 +22,7 @@ using gslam::CameraSensor;
 using gslam::SE3d;
 using gslam::Vec3d;
 
-constexpr double kSameAngle = 1e-6;  // radians, and parts of the baseline: both are one row
+constexpr double kSameRow = 1e-6;  // radians, and parts of the baseline: both are one row
 
 // One camera of the pair, and all that is done with its images.
 class Side {
@@ -80,9 +80,9 @@ class Side {
 
 bool isRectified(const gslam::Camera& left, const gslam::Camera& right, const SE3d& T_left_right) {
   const Vec3d& t = T_left_right.translation();
-  const double least = kSameAngle * t[0];
+  const double least = kSameRow * t[0];
   return left.modelName() == "pinhole" && left == right &&
-         T_left_right.rotation().log().norm() < kSameAngle && std::fabs(t[1]) <= least &&
+         T_left_right.rotation().log().norm() < kSameRow && std::fabs(t[1]) <= least &&
          std::fabs(t[2]) <= least;
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kLeastPairs = 15;
 constexpr double kLeastAgreeing = 0.5;  // of the pairs
-constexpr double kSameDistance = 0.25;  // by how much the distances of a pair may differ
+constexpr double kSameScale = 0.25;     // by how much the distances of a pair may differ
 constexpr double kMostErrors = 4;       // of the squared error of an inlier: points have some, too
 constexpr double kMostDrift = 0.3;      // of the way
 constexpr double kMostDriftOfDepth = 0.2;  // of the distance of what is seen: where there is no way
@@ -70,7 +70,7 @@ std::size_t agreeing(const Scene& scene, const std::vector<KeyframeId>& place,
   const SIM3d S_world_camera(loop.T_world_body * scene.eye.T_body_camera, loop.scale);
   std::size_t count = 0;
   for (const Pair& pair : pairs) {
-    if (std::abs(pair.ratio / loop.scale - 1) > kSameDistance) continue;
+    if (std::abs(pair.ratio / loop.scale - 1) > kSameScale) continue;
     if (isSeenThere(scene, place, pair.old, S_world_camera * pair.here)) ++count;
   }
   return count;

@@ -20,11 +20,11 @@ using gslam::Vec3d;
 
 namespace {
 
-constexpr std::uint32_t kNeighbour = 15;     // points that neighbours share
-constexpr std::size_t kMostOfPlace = 20;     // keyframes of the old place
-constexpr std::uint32_t kSharedOfLoop = 50;  // points of a pair across the loop that counts
-constexpr double kSameDistance = 0.2;        // by how much those of one point may differ
-constexpr double kWindow = 5;                // pixels
+constexpr std::uint32_t kSharedByNeighbours = 15;  // points that neighbours share
+constexpr std::size_t kMostAround = 20;            // keyframes of the old place
+constexpr std::uint32_t kSharedOfLoop = 50;        // points of a pair across the loop that counts
+constexpr double kSameDistance = 0.2;              // by how much those of one point may differ
+constexpr double kWindow = 5;                      // pixels
 
 // Features of keyframes at the new end of the loop that see points of the old one.
 struct Seam {
@@ -67,7 +67,8 @@ void Closing::correctNewEnd(LoopGraph& graph) {
       SIM3d(before_.map.at(loop_.there).T_world_body) * loop_.S_there_here * SIM3d(T_body_camera);
   const SIM3d correction = S_world_here * graph.pose(loop_.here).inverse();
   new_end_.push_back(loop_.here);
-  for (const gslam::Covisible& other : covisibleKeyframes(before_.map, loop_.here, kNeighbour)) {
+  for (const gslam::Covisible& other :
+       covisibleKeyframes(before_.map, loop_.here, kSharedByNeighbours)) {
     new_end_.push_back(other.keyframe);
   }
   for (const KeyframeId id : new_end_) graph.pose(id) = correction * graph.pose(id);
@@ -105,7 +106,7 @@ void Closing::addConfirmed(std::vector<Match>& matches) const {
 // Looks for the points of the old place in all keyframes of the new end.
 void Closing::sew(const LoopGraph& graph) {
   const std::vector<PointId> points =
-      pointsOf(before_, placeAround(before_, loop_.there, kMostOfPlace));
+      pointsOf(before_, placeAround(before_, loop_.there, kMostAround));
   MatchRules rules;
   rules.most = kStrictDistance;
   rules.ratio = 0.9F;

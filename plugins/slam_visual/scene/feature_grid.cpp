@@ -6,17 +6,17 @@
 namespace visual {
 namespace {
 
-constexpr double kCell = 16;  // pixels
+constexpr double kCellSize = 16;  // pixels
 
 int cellOf(double at, int count) noexcept {
-  return int(std::clamp(std::floor(at / kCell), 0.0, double(count - 1)));
+  return int(std::clamp(std::floor(at / kCellSize), 0.0, double(count - 1)));
 }
 
 }  // namespace
 
 FeatureGrid::FeatureGrid(gslam::Span<const gslam::Feature> features, int width, int height)
-    : columns_(std::max(1, int(std::ceil(width / kCell)))),
-      rows_(std::max(1, int(std::ceil(height / kCell)))),
+    : columns_(std::max(1, int(std::ceil(width / kCellSize)))),
+      rows_(std::max(1, int(std::ceil(height / kCellSize)))),
       begin_(std::size_t(columns_) * std::size_t(rows_) + 1, 0),
       entries_(features.size()) {
   const auto cell = [this](const gslam::Feature& feature) {

@@ -40,7 +40,7 @@ std::string escaped(const std::string& text) {
 }
 
 // For people; JavaScript reads it, too, and has nothing to draw where it is not finite.
-std::string numberText(double value, const char* format = "%.6g") {
+std::string pageNumber(double value, const char* format = "%.6g") {
   if (!std::isfinite(value)) return "0";
   char text[40];
   std::snprintf(text, sizeof text, format, value);
@@ -90,10 +90,10 @@ std::string packed(const Scene& scene) {
 
 std::string viewText(const SceneView& view) {
   std::string text = "{centre:[";
-  for (const float value : view.centre.values) text += numberText(double(value), "%.9g") + ",";
-  text += "],radius:" + numberText(double(view.radius), "%.9g") + ",R:[";
+  for (const float value : view.centre.values) text += pageNumber(double(value), "%.9g") + ",";
+  text += "],radius:" + pageNumber(double(view.radius), "%.9g") + ",R:[";
   for (const float value : view.R_view_world.values)
-    text += numberText(double(value), "%.9g") + ",";
+    text += pageNumber(double(value), "%.9g") + ",";
   return text + "]}";
 }
 
@@ -112,12 +112,12 @@ std::string costChart(const OptimizerSummary& summary) {
   for (std::size_t i = 0; i < heights.size(); ++i) {
     const double x = 10 + 580 * static_cast<double>(i) / static_cast<double>(heights.size() - 1);
     const double y = 110 - 100 * (heights[i] - low) / (high - low);
-    points += numberText(x, "%.1f") + "," + numberText(y, "%.1f") + " ";
+    points += pageNumber(x, "%.1f") + "," + pageNumber(y, "%.1f") + " ";
   }
   return "<svg viewBox=\"0 0 600 120\" role=\"img\" aria-label=\"cost by iteration\"><polyline "
          "points=\"" +
          points + "\"/></svg>\n<p class=\"note\">Cost of the steps that were kept, from " +
-         numberText(std::pow(10, high)) + " down to " + numberText(std::pow(10, low)) +
+         pageNumber(std::pow(10, high)) + " down to " + pageNumber(std::pow(10, low)) +
          ", logarithmic.</p>\n";
 }
 
@@ -146,7 +146,7 @@ std::string factsTable(const OptimizerSummary& summary) {
                           std::to_string(summary.left_out) + " left out, " +
                           std::to_string(summary.inliers) + " inliers");
   add("parameters", std::to_string(summary.parameters));
-  add("time", numberText(summary.times.total, "%.3g") + " s");
+  add("time", pageNumber(summary.times.total, "%.3g") + " s");
   for (const std::string& warning : summary.warnings) add("warning", warning);
   return "<table>\n" + rows + "</table>\n";
 }

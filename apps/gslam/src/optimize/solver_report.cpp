@@ -28,7 +28,7 @@ std::string formatted(const char* format, Values... values) {
   return text;
 }
 
-Svar describe(const OptimizerIteration& iteration) {
+Svar describeIteration(const OptimizerIteration& iteration) {
   return Svar::object({{"number", iteration.number},
                        {"cost", numberOrNull(iteration.cost)},
                        {"cost_change", numberOrNull(iteration.cost_change)},
@@ -118,7 +118,7 @@ void print(const OptimizerSummary& summary) {
 Svar describe(const OptimizerSummary& summary) {
   Svar iterations = Svar::array({}), warnings = Svar::array({});
   for (const OptimizerIteration& iteration : summary.iterations) {
-    iterations.push_back(describe(iteration));
+    iterations.push_back(describeIteration(iteration));
   }
   for (const std::string& warning : summary.warnings) warnings.push_back(warning);
   return Svar::object({{"status", nameOf(summary.status)},

@@ -19,20 +19,9 @@ using gslam::OptimizerSummary;
 using gslam::SE3d;
 using gslam::Vec3d;
 using scenes::Bundle;
-
-OptimizerSummary solve(const BundleProblem& problem, const OptimizerOptions& options = {}) {
-  return gslam::ceresBackend().bundle(problem, options);
-}
-
-OptimizerOptions exact() {
-  OptimizerOptions options;
-  options.function_tolerance = 1e-20;
-  options.parameter_tolerance = 1e-14;
-  options.gradient_tolerance = 1e-14;
-  return options;
-}
-
-const std::vector<std::uint8_t> kTwoFixed = {1, 1, 0, 0, 0};
+using scenes::exact;
+using scenes::kTwoFixed;
+using scenes::solve;
 
 TEST(bundle_search, progress_ends_the_search_or_passes_through) {
   Bundle scene = Bundle::make(5, 60, {scenes::radtan()}, {}, 1);

@@ -24,21 +24,9 @@ using gslam::SO3d;
 using gslam::Vec2d;
 using gslam::Vec3d;
 using scenes::Bundle;
-
-OptimizerSummary solve(const BundleProblem& problem, const OptimizerOptions& options = {}) {
-  return gslam::ceresBackend().bundle(problem, options);
-}
-
-// To the last digit.
-OptimizerOptions exact() {
-  OptimizerOptions options;
-  options.function_tolerance = 1e-20;
-  options.parameter_tolerance = 1e-14;
-  options.gradient_tolerance = 1e-14;
-  return options;
-}
-
-const std::vector<std::uint8_t> kTwoFixed = {1, 1, 0, 0, 0};
+using scenes::exact;
+using scenes::kTwoFixed;
+using scenes::solve;
 
 TEST(bundle, finds_poses_and_points_with_two_poses_fixed) {
   const Bundle truth = Bundle::make(5, 60, {scenes::radtan()}, {}, 1);

@@ -4,6 +4,7 @@
 
 #include <gslam/geometry/random.h>
 #include <gslam/optimizer/bundle_problem.h>
+#include <gslam/optimizer_ceres.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -124,6 +125,24 @@ inline double farthest(const std::vector<SE3d>& a, const std::vector<SE3d>& b) {
   }
   return largest;
 }
+
+// With all digits there are.
+inline gslam::OptimizerOptions exact() {
+  gslam::OptimizerOptions options;
+  options.function_tolerance = 1e-20;
+  options.parameter_tolerance = 1e-14;
+  options.gradient_tolerance = 1e-14;
+  options.max_iterations = 100;
+  return options;
+}
+
+inline gslam::OptimizerSummary solve(const BundleProblem& problem,
+                                     const gslam::OptimizerOptions& options = {}) {
+  return gslam::ceresBackend().bundle(problem, options);
+}
+
+// Of five poses.
+const std::vector<std::uint8_t> kTwoFixed = {1, 1, 0, 0, 0};
 
 }  // namespace scenes
 

@@ -24,15 +24,7 @@ using gslam::TwoViewProblem;
 using gslam::Vec2d;
 using gslam::Vec3d;
 using gslam::Vec4d;
-
-OptimizerOptions exact() {
-  OptimizerOptions options;
-  options.function_tolerance = 1e-20;
-  options.parameter_tolerance = 1e-14;
-  options.gradient_tolerance = 1e-14;
-  options.max_iterations = 100;
-  return options;
-}
+using scenes::exact;
 
 struct Known {
   SE3d truth = SE3d(SO3d::exp({0.1, -0.2, 0.3}), {0.5, 0.2, -1});

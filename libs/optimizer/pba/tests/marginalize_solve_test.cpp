@@ -21,7 +21,7 @@ using bundle_scene::Random;
 using bundle_scene::Scene;
 using Indices = std::vector<std::uint32_t>;
 
-OptimizerOptions thorough() {
+OptimizerOptions thoroughPba() {
   OptimizerOptions options;
   options.backend = "pba";
   options.function_tolerance = 1e-12;
@@ -100,7 +100,7 @@ void slide(Scene& all, bool with_prior) {
     Scene window = partOf(all, first, last, false);
     window.window_priors = priors;
     if (!with_prior) window.bundle.pose_fixed[0] = window.bundle.pose_fixed[1] = 1;
-    const OptimizerSummary summary = optimizeBundle(window.problem(), thorough());
+    const OptimizerSummary summary = optimizeBundle(window.problem(), thoroughPba());
     ASSERT_TRUE(summary.hasConverged()) << summary.message;
     EXPECT_NEAR(bundleCost(window.problem()), summary.final_cost, 1e-9 * summary.initial_cost);
     std::copy(window.bundle.T_world_body.begin(), window.bundle.T_world_body.end(),
@@ -128,7 +128,7 @@ TEST(window_prior, makes_a_moving_window_end_where_the_whole_does) {
   for (const bool is_stereo : {true, false}) {
     Scene whole = makeTrack(is_stereo);
     Scene with = whole, without = whole;
-    ASSERT_TRUE(optimizeBundle(whole.problem(), thorough()).hasConverged());
+    ASSERT_TRUE(optimizeBundle(whole.problem(), thoroughPba()).hasConverged());
     slide(with, true);
     slide(without, false);
     const double noise = distance(whole.bundle.T_world_body, whole.truth.T_world_body);
@@ -142,14 +142,14 @@ void expectGraphToLeadBack(Scene scene, std::uint32_t fixed) {
   addNoise(scene, 0.3);
   scene.bundle.pose_fixed.assign(scene.bundle.T_world_body.size(), 0);
   std::fill_n(scene.bundle.pose_fixed.begin(), fixed, std::uint8_t(1));
-  ASSERT_TRUE(optimizeBundle(scene.problem(), thorough()).is_usable);
+  ASSERT_TRUE(optimizeBundle(scene.problem(), thoroughPba()).is_usable);
   PoseGraph<SE3d> graph = poseGraphOf(scene.problem());
   ASSERT_EQ(graph.from.size(), 15u);
   Random random(8);
   for (std::size_t i = fixed; i < graph.T_world_body.size(); ++i) {
     graph.T_world_body[i] *= SE3d::exp(random.tangent(0.1, 0.05));
   }
-  const OptimizerSummary summary = optimizePoseGraph(graph.problem(), thorough());
+  const OptimizerSummary summary = optimizePoseGraph(graph.problem(), thoroughPba());
   EXPECT_TRUE(summary.hasConverged()) << summary.message;
   EXPECT_LT(summary.final_cost, 1e-9 * summary.initial_cost);
   for (std::size_t i = 0; i < graph.T_world_body.size(); ++i) {

@@ -15,7 +15,7 @@ namespace {
 
 using detail::pba::solvePoseGraph;
 using pose_graph_test::Graph;
-using pose_graph_test::Random;
+using pose_graph_test::GraphRandom;
 
 // U^T diag(w) U with a random rotation in each half; w from 1 to `condition`, evenly by their logs.
 // The root, and with it noise of this information, comes out too.
@@ -23,7 +23,7 @@ struct Anisotropy {
   SE3d::Jacobian information{};
   SE3d::Jacobian deviation{};  // times a vector of unit normals: the noise
 
-  Anisotropy(double least, double condition, Random& random) {
+  Anisotropy(double least, double condition, GraphRandom& random) {
     for (std::size_t half = 0; half < 6; half += 3) {
       const Mat3d turn = SO3d::exp({{random.normal(), random.normal(), random.normal()}}).matrix();
       Mat3d weights{}, deviations{};
@@ -41,7 +41,7 @@ struct Anisotropy {
 // neighbour that was visited before. Poses are the odometry.
 Graph<SE3d> anisotropicGrid(std::size_t side, double least, double condition,
                             std::vector<SE3d>& truth) {
-  Random random(3);
+  GraphRandom random(3);
   Graph<SE3d> graph;
   std::vector<std::size_t> at(side * side * side);
   const auto connect = [&](std::size_t i, std::size_t j) {

@@ -14,7 +14,7 @@ namespace {
 using detail::pba::solvePoseGraph;
 using pose_graph_test::disturb;
 using pose_graph_test::Graph;
-using pose_graph_test::Random;
+using pose_graph_test::GraphRandom;
 using pose_graph_test::sameBits;
 using pose_graph_test::walk;
 
@@ -68,7 +68,7 @@ TYPED_TEST(PoseGraphSolver, the_cost_is_that_of_the_formulas_and_at_a_minimum) {
   for (const PoseGraphResidual kind : kAllResiduals) {
     if (!hasResidual<TypeParam>(kind)) continue;
     Graph<TypeParam> graph = walk<TypeParam>(15, 20, 0.1, 7);
-    graph.addPrior(4, graph.T_world_body[4] * Random(1).pose<TypeParam>(0.2));
+    graph.addPrior(4, graph.T_world_body[4] * GraphRandom(1).pose<TypeParam>(0.2));
     OptimizerOptions options = tight();
     options.loss = {LossKind::Huber, 2};
     const auto problem = graph.problem(kind);
@@ -140,7 +140,7 @@ TYPED_TEST(PoseGraphSolver, parts_that_nothing_connects_are_held_one_by_one) {
                             other.T_world_body.end());
   graph.T_world_body.push_back(TypeParam());  // without edges
   const std::vector<TypeParam> truth = graph.T_world_body;
-  Random random(14);
+  GraphRandom random(14);
   for (std::size_t i = 0; i < truth.size(); ++i) {
     if (i != 0 && i != 20 && i != 35) graph.T_world_body[i] *= random.pose<TypeParam>(0.05);
   }
@@ -167,7 +167,7 @@ TYPED_TEST(PoseGraphSolver, false_loops_lose_against_geman_and_mcclure) {
   Graph<TypeParam> graph = walk<TypeParam>(60, 70, 0.005, 17);
   const std::vector<TypeParam> truth = graph.T_world_body;
   for (auto& weight : graph.information) weight = 4e4 * TypeParam::Jacobian::identity();
-  Random random(18);
+  GraphRandom random(18);
   const std::size_t honest = graph.from.size();
   for (int k = 0; k < 30; ++k) {
     const std::size_t i = random.below(60), j = (i + 2 + random.below(56)) % 60;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kPowers = 4;  // of the series beyond its first term
 
-double dotOf(const std::vector<double>& a, const std::vector<double>& b) {
+double dotInFour(const std::vector<double>& a, const std::vector<double>& b) {
   double sums[4] = {};
   std::size_t i = 0;
   for (; i + 4 <= a.size(); i += 4) {
@@ -111,7 +111,7 @@ bool FastGradients<T>::solve(FastSchur<T>& schur, const OptimizerOptions& option
   r_ = right;
   precondition(schur, r_, z_);
   p_ = z_;
-  double rho = dotOf(r_, z_);
+  double rho = dotInFour(r_, z_);
   if (rho == 0) return true;
   // Exactness is cheap where the equations are dear: with C products for the price of the matrix,
   // iterations go on while the next lowers the model by more than a part of what one lowered it so
@@ -125,15 +125,15 @@ bool FastGradients<T>::solve(FastSchur<T>& schur, const OptimizerOptions& option
   double model = 0;  // by how much x lowers it
   while (iterations < options.max_linear_iterations) {
     schur.multiply(p_, q_);
-    const double curvature = dotOf(p_, q_);
+    const double curvature = dotInFour(p_, q_);
     if (!(curvature > 0) || !std::isfinite(rho)) break;  // rounding: what is there must do
     const double alpha = rho / curvature;
     addScaled(alpha, p_, step);
     addScaled(-alpha, q_, r_);
     ++iterations;
-    const double new_model = (dotOf(step, right) + dotOf(step, r_)) / 2;
+    const double new_model = (dotInFour(step, right) + dotInFour(step, r_)) / 2;
     precondition(schur, r_, z_);
-    const double new_rho = dotOf(r_, z_);
+    const double new_rho = dotInFour(r_, z_);
     const double price = patience + static_cast<double>(iterations);
     const bool is_flat = price * (new_model - model) < tolerance * new_model;
     if (is_flat || !(new_rho > least_rho)) break;

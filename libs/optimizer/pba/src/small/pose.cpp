@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kFirstDamping = 1e-6;
 constexpr double kDampingAfterFailure = 1e-3;  // at least
-constexpr int kMostFailures = 20;              // in a row
+constexpr int kMostPoseFailures = 20;          // in a row
 // Parts of the cost. Where the model promises less, rounding hides it.
 constexpr double kRounding = 1e-15;
 // Below the tolerance steps go on until they promise less than a tenth of its square, 1e-13: near
@@ -138,7 +138,7 @@ class PoseSolver {
   void fail() {
     damping_ = std::max(damping_ * growth_, kDampingAfterFailure);
     growth_ *= 2;
-    if (++failures_ >= kMostFailures) end(OptimizerStatus::Stalled);
+    if (++failures_ >= kMostPoseFailures) end(OptimizerStatus::Stalled);
   }
 
   void linearize(PoseCurvature curvature) {

@@ -15,7 +15,7 @@ namespace detail {
 namespace pba {
 namespace {
 
-constexpr double kNoCost = std::numeric_limits<double>::infinity();
+constexpr double kUnusable = std::numeric_limits<double>::infinity();
 
 // The numbers of a camera whose formula has a kernel; false for other models.
 struct FormulaOf {
@@ -70,7 +70,7 @@ struct AddPoints {
       ++sum.seen;
       const Vec3d point = T_camera_world * Vec3d{block.x[k], block.y[k], block.z[k]};
       if (!addPoint(model, k, point)) {
-        sum.cost = kNoCost;
+        sum.cost = kUnusable;
       } else if (block.inlier[k] > 0) {
         ++sum.inliers;
       }
