@@ -32,6 +32,11 @@ if(GSLAM_SANITIZE)
   add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   add_link_options(-fsanitize=${GSLAM_SANITIZE})
 endif()
+if(CMAKE_UNITY_BUILD)
+  # A class of an unnamed namespace may be a member of a class of its source; joined, GCC takes the
+  # source for a header.
+  add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endif()
 if(GSLAM_BUILD_FUZZ)
   add_compile_options(-fsanitize=fuzzer-no-link)  # the fuzzer sees into compiled libraries, too
   add_link_options(-fsanitize=fuzzer-no-link)
