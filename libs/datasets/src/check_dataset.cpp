@@ -18,7 +18,7 @@ constexpr double kLeastGravity = 5, kMostGravity = 15;  // m/s^2, as the usual l
 constexpr double kMostTurning = 10;                     // rad/s, as the usual length
 constexpr double kLeastDepth = 0.02, kMostDepth = 200;  // metres, as the usual depth
 constexpr double kMostSpeed = 200;                      // m/s
-constexpr std::size_t kMostFailures = 1000;             // in a row, where the end is not known
+constexpr std::size_t kMostUnreadable = 1000;           // in a row, where the end is not known
 
 // Complaints, counted by what they say.
 class Complaints {
@@ -114,7 +114,7 @@ class Check {
   // Whether there was one, be it that it could not be read.
   bool readFrame(std::size_t place) {
     const std::size_t total = dataset_.info().frame_count;
-    const bool is_endless = total > 0 ? place > total : failures_in_a_row_ > kMostFailures;
+    const bool is_endless = total > 0 ? place > total : failures_in_a_row_ > kMostUnreadable;
     if (is_endless) return false;
     try {
       const std::shared_ptr<const Frame> frame = dataset_.next();

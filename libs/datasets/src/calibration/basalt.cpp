@@ -13,14 +13,14 @@ inline namespace v1 {
 namespace calibration {
 namespace {
 
-struct Model {
+struct BasaltModel {
   const char* theirs;
   const char* ours;
   std::vector<std::string> names;  // of the values, in our order
 };
 
-const std::vector<Model>& models() {
-  static const std::vector<Model> all = {
+const std::vector<BasaltModel>& models() {
+  static const std::vector<BasaltModel> all = {
       {"ds", "double_sphere", {"fx", "fy", "cx", "cy", "xi", "alpha"}},
       {"eucm", "eucm", {"fx", "fy", "cx", "cy", "alpha", "beta"}},
       {"ucm", "ucm", {"fx", "fy", "cx", "cy", "alpha"}},
@@ -33,17 +33,17 @@ const std::vector<Model>& models() {
   return all;
 }
 
-const Model& modelOf(const Fields& type) {
+const BasaltModel& modelOf(const Fields& type) {
   std::string expected;
-  for (const Model& model : models()) {
+  for (const BasaltModel& model : models()) {
     if (type.text() == model.theirs) return model;
     expected += (expected.empty() ? "" : ", ") + std::string(model.theirs);
   }
   type.fail("is '" + type.text() + "', expected one of " + expected);
 }
 
-Camera cameraOf(const Fields& camera, ImageSize size) {
-  const Model& model = modelOf(camera["camera_type"]);
+Camera basaltCamera(const Fields& camera, ImageSize size) {
+  const BasaltModel& model = modelOf(camera["camera_type"]);
   const Fields values = camera["intrinsics"];
   std::vector<double> parameters;
   for (const std::string& name : model.names) parameters.push_back(values[name].number());
@@ -63,7 +63,7 @@ SE3d poseOf(const Fields& pose) {
               {{pose["px"].number(), pose["py"].number(), pose["pz"].number()}});
 }
 
-void readImu(const Fields& root, Calibration& result) {
+void readBasaltImu(const Fields& root, Calibration& result) {
   result.rig.has_imu = true;
   ImuCalibration& imu = result.rig.imu;
   imu.rate = root.number("imu_update_rate", 0);
@@ -114,7 +114,7 @@ Calibration parseBasalt(const Document& document) {
   if (cameras.size() == 0) cameras.fail("is empty, expected cameras");
   const std::int64_t offset = timeOffsetOf(root);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    const Camera camera = cameraOf(cameras.at(i), sizeOf(sizes.at(i)));
+    const Camera camera = basaltCamera(cameras.at(i), sizeOf(sizes.at(i)));
     const std::string name = "cam" + std::to_string(i);
     result.rig.cameras.push_back(makeSensor(name, camera, poseOf(places.at(i))));
     result.time_offsets.push_back(offset);
@@ -123,7 +123,7 @@ Calibration parseBasalt(const Document& document) {
     result.remarks.push_back("stamps of the cameras are to be shifted by " +
                              std::to_string(offset) + " ns to be those of the IMU");
   }
-  readImu(root, result);
+  readBasaltImu(root, result);
   return result;
 }
 

@@ -10,7 +10,7 @@ inline namespace v1 {
 namespace calibration {
 namespace {
 
-struct Model {
+struct ColmapModel {
   const char* theirs;
   const char* ours;
   bool has_one_focal_length;
@@ -18,32 +18,32 @@ struct Model {
   std::size_t all_coefficients;  // of ours; those that the file does not have are 0
 };
 
-const Model kModels[] = {{"SIMPLE_PINHOLE", "pinhole", true, 0, 0},
-                         {"PINHOLE", "pinhole", false, 0, 0},
-                         {"SIMPLE_RADIAL", "radtan", true, 1, 4},
-                         {"RADIAL", "radtan", true, 2, 4},
-                         {"OPENCV", "radtan", false, 4, 4},
-                         {"FULL_OPENCV", "radtan", false, 8, 8},
-                         {"OPENCV_FISHEYE", "kannala_brandt", false, 4, 4},
-                         {"SIMPLE_RADIAL_FISHEYE", "kannala_brandt", true, 1, 4},
-                         {"RADIAL_FISHEYE", "kannala_brandt", true, 2, 4},
-                         {"FOV", "fov", false, 1, 1}};
+const ColmapModel kColmapModels[] = {{"SIMPLE_PINHOLE", "pinhole", true, 0, 0},
+                                     {"PINHOLE", "pinhole", false, 0, 0},
+                                     {"SIMPLE_RADIAL", "radtan", true, 1, 4},
+                                     {"RADIAL", "radtan", true, 2, 4},
+                                     {"OPENCV", "radtan", false, 4, 4},
+                                     {"FULL_OPENCV", "radtan", false, 8, 8},
+                                     {"OPENCV_FISHEYE", "kannala_brandt", false, 4, 4},
+                                     {"SIMPLE_RADIAL_FISHEYE", "kannala_brandt", true, 1, 4},
+                                     {"RADIAL_FISHEYE", "kannala_brandt", true, 2, 4},
+                                     {"FOV", "fov", false, 1, 1}};
 
-const Model* modelNamed(const std::string& name) {
-  for (const Model& model : kModels) {
+const ColmapModel* colmapModel(const std::string& name) {
+  for (const ColmapModel& model : kColmapModels) {
     if (name == model.theirs) return &model;
   }
   return nullptr;
 }
 
-const Model& readModel(FieldReader& reader) {
+const ColmapModel& readModel(FieldReader& reader) {
   const char* const at = reader.place();
   const std::string name = reader.word();
   reader.skipWord();
-  const Model* const model = modelNamed(name);
+  const ColmapModel* const model = colmapModel(name);
   if (model != nullptr) return *model;
   std::string expected;
-  for (const Model& known : kModels)
+  for (const ColmapModel& known : kColmapModels)
     expected += (expected.empty() ? "" : ", ") + std::string(known.theirs);
   reader.fail(at, "the model is '" + name + "', expected one of " + expected);
 }
@@ -51,7 +51,7 @@ const Model& readModel(FieldReader& reader) {
 CameraSensor readCamera(FieldReader& reader, const std::string& source) {
   const std::string id = reader.word();
   (void)wholeNumber(reader, "the id of the camera", 0, 2147483647);
-  const Model& model = readModel(reader);
+  const ColmapModel& model = readModel(reader);
   const int width = wholeNumber(reader, "the width", 1, kMostPixels);
   const int height = wholeNumber(reader, "the height", 1, kMostPixels);
   std::vector<double> values = {reader.number("the focal length")};
@@ -78,7 +78,7 @@ bool isColmap(const Document& document) {
   reader.skipWord();
   if (reader.isLineEnd()) return false;
   const std::string word = reader.word();  // also a model that is not known yet
-  return modelNamed(word) != nullptr || word.find("FISHEYE") != std::string::npos;
+  return colmapModel(word) != nullptr || word.find("FISHEYE") != std::string::npos;
 }
 
 Calibration parseColmap(const Document& document) {

@@ -13,42 +13,42 @@ inline namespace v1 {
 namespace calibration {
 namespace {
 
-struct Model {
+struct DsoModel {
   const char* word;
   const char* ours;
   std::size_t numbers;
 };
 
-const Model kModels[] = {{"Pinhole", "pinhole", 5},
-                         {"FOV", "fov", 5},
-                         {"RadTan", "radtan", 8},
-                         {"EquiDistant", "kannala_brandt", 8},
-                         {"KannalaBrandt", "kannala_brandt", 8}};
+const DsoModel kDsoModels[] = {{"Pinhole", "pinhole", 5},
+                               {"FOV", "fov", 5},
+                               {"RadTan", "radtan", 8},
+                               {"EquiDistant", "kannala_brandt", 8},
+                               {"KannalaBrandt", "kannala_brandt", 8}};
 
-const Model* modelNamed(const std::string& word) {
-  for (const Model& model : kModels) {
+const DsoModel* dsoModel(const std::string& word) {
+  for (const DsoModel& model : kDsoModels) {
     if (word == model.word) return &model;
   }
   return nullptr;
 }
 
 struct FirstLine {
-  const Model* model = nullptr;
+  const DsoModel* model = nullptr;
   std::vector<double> values;
   std::size_t line = 0;
 };
 
 // Five numbers are a field-of-view camera, or a pinhole where the last is 0; eight: see
 // CalibrationOptions::bare_model.
-const Model* modelOfBare(const FirstLine& first, const CalibrationOptions& options,
-                         std::vector<std::string>& remarks) {
-  if (first.values.size() == 5) return modelNamed(first.values[4] == 0 ? "Pinhole" : "FOV");
+const DsoModel* modelOfBare(const FirstLine& first, const CalibrationOptions& options,
+                            std::vector<std::string>& remarks) {
+  if (first.values.size() == 5) return dsoModel(first.values[4] == 0 ? "Pinhole" : "FOV");
   if (first.values.size() != 8) return nullptr;
-  if (!options.bare_model.empty()) return modelNamed(options.bare_model);
+  if (!options.bare_model.empty()) return dsoModel(options.bare_model);
   remarks.push_back(
       "eight numbers without a word before them were taken for RadTan, as DSO does; in TUM-VI's "
       "files they are EquiDistant (CalibrationOptions::bare_model)");
-  return modelNamed("RadTan");
+  return dsoModel("RadTan");
 }
 
 FirstLine readFirst(FieldReader& reader, const Document& document,
@@ -56,7 +56,7 @@ FirstLine readFirst(FieldReader& reader, const Document& document,
   FirstLine first;
   needLine(reader, "a camera model and its parameters");
   first.line = reader.line();
-  first.model = modelNamed(reader.word());
+  first.model = dsoModel(reader.word());
   const bool is_bare = first.model == nullptr;
   const char* const at = reader.place();
   if (!is_bare) reader.skipWord();
@@ -129,7 +129,7 @@ void readOutput(FieldReader& reader, std::vector<std::string>& remarks) {
 bool isDso(const Document& document) {
   FieldReader reader(document.text, document.source, "a camera");
   if (!reader.nextLine()) return false;
-  if (modelNamed(reader.word()) != nullptr) return true;
+  if (dsoModel(reader.word()) != nullptr) return true;
   try {
     const std::size_t count = restOfLine(reader, "a parameter").size();
     return count == 5 || count == 8;

@@ -9,7 +9,7 @@ inline namespace v1 {
 namespace calibration {
 namespace {
 
-void readCamera(const Fields& root, Calibration& result) {
+void readEurocCamera(const Fields& root, Calibration& result) {
   const std::string model = root.has("camera_model") ? root["camera_model"].text() : "pinhole";
   if (model != "pinhole") root["camera_model"].fail("is '" + model + "', expected pinhole");
   const ImageSize size = sizeOf(root["resolution"]);
@@ -24,7 +24,7 @@ void readCamera(const Fields& root, Calibration& result) {
   result.rig.cameras.push_back(makeSensor("camera", camera, root["T_BS"].pose(), rate));
 }
 
-void readImu(const Fields& root, Calibration& result) {
+void readEurocImu(const Fields& root, Calibration& result) {
   result.rig.has_imu = true;
   ImuCalibration& imu = result.rig.imu;
   imu.T_body_imu = root["T_BS"].pose();
@@ -53,9 +53,9 @@ Calibration parseEuroc(const Document& document) {
   const std::string type = root["sensor_type"].text();
   if (root.number("rate_hz", 0) < 0) root["rate_hz"].fail("is negative, expected 0 or more");
   if (type == "camera") {
-    readCamera(root, result);
+    readEurocCamera(root, result);
   } else if (type == "imu") {
-    readImu(root, result);
+    readEurocImu(root, result);
   } else {
     root["sensor_type"].fail("is '" + type + "', expected camera or imu");
   }

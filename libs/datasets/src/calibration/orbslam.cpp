@@ -117,7 +117,7 @@ void sayScale(const Fields& root, Calibration& result) {
   result.remarks.push_back("ORB-SLAM would scale the images; they are as they were taken");
 }
 
-void readImu(const Fields& root, Calibration& result) {
+void readOrbslamImu(const Fields& root, Calibration& result) {
   result.rig.has_imu = true;
   ImuCalibration& imu = result.rig.imu;
   imu.gyro_noise = noiseOf(root["IMU.NoiseGyro"], result);
@@ -145,7 +145,7 @@ Calibration parseOrbslam(const Document& document) {
   readCameras(document, result);
   sayScale(document.root, result);
   result.body = "the camera " + result.rig.cameras[0].name;
-  if (document.root.has("IMU.NoiseGyro")) readImu(document.root, result);
+  if (document.root.has("IMU.NoiseGyro")) readOrbslamImu(document.root, result);
   return result;
 }
 

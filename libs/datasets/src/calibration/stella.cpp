@@ -10,7 +10,7 @@ inline namespace v1 {
 namespace calibration {
 namespace {
 
-Camera cameraOf(const Fields& camera, ImageSize size) {
+Camera stellaCamera(const Fields& camera, ImageSize size) {
   const std::string model = camera["model"].text();
   if (model == "equirectangular") return makeCamera(camera, model, size, {});
   if (model != "perspective" && model != "fisheye") {
@@ -82,7 +82,7 @@ Calibration parseStella(const Document& document) {
   const double rate = camera.number("fps", 0);
   if (rate < 0) camera["fps"].fail("is negative, expected images a second");
   Calibration result;
-  result.rig.cameras.push_back(makeSensor("camera", cameraOf(camera, size), SE3d(), rate));
+  result.rig.cameras.push_back(makeSensor("camera", stellaCamera(camera, size), SE3d(), rate));
   result.rig.cameras[0].kind = kindOf(camera);
   const std::string setup = camera.has("setup") ? camera["setup"].text() : "monocular";
   if (setup == "stereo") {

@@ -11,7 +11,7 @@ namespace calibration {
 
 namespace {
 
-Camera cameraOf(const Fields& root, ImageSize size) {
+Camera svoCamera(const Fields& root, ImageSize size) {
   const Fields word = root["cam_model"];
   const std::string model = word.text();
   const std::vector<double> v = membersOf(root, {"cam_fx", "cam_fy", "cam_cx", "cam_cy"});
@@ -42,7 +42,7 @@ Calibration parseSvo(const Document& document) {
   const Fields& root = document.root;
   const ImageSize size = {root["cam_width"].pixels(), root["cam_height"].pixels()};
   Calibration result;
-  const Camera camera = cameraOf(root, size);
+  const Camera camera = svoCamera(root, size);
   result.rig.cameras.push_back(makeSensor("camera", camera));
   result.body = "the camera";
   if (root.number("scale", 1) != 1 || root.number("cam_scale", 1) != 1) {

@@ -17,7 +17,7 @@ using exporting::ExportFolder;
 using exporting::Layout;
 using exporting::Source;
 
-constexpr std::size_t kMostFailures = 100;  // in a row
+constexpr std::size_t kMostUnexported = 100;  // in a row
 
 struct KnownFormat {
   const char* name;
@@ -125,8 +125,8 @@ class Exporter {
     std::string& shown = reasons_[kind.substr(0, kind.find(','))];
     if (shown.empty()) shown = kind + reason;
     source_.notes.count("frames", shown);
-    if (++failures_ < kMostFailures) return;
-    throw Error(std::to_string(kMostFailures) + " frames in a row cannot be read or written; " +
+    if (++failures_ < kMostUnexported) return;
+    throw Error(std::to_string(kMostUnexported) + " frames in a row cannot be read or written; " +
                 message);
   }
 

@@ -51,7 +51,7 @@ std::string textOf(const Svar& parameters, const std::string& name) {
                                            : value.as<std::string>();
 }
 
-std::vector<std::size_t> numbersOf(const std::string& text) {
+std::vector<std::size_t> cameraNumbersOf(const std::string& text) {
   std::vector<std::size_t> numbers;
   std::size_t begin = 0;
   while (begin <= text.size()) {
@@ -72,7 +72,7 @@ std::vector<std::size_t> wantedCameras(const Asl& asl) {
   std::vector<std::size_t> all = camerasIn(*asl.tree, asl.mav);
   const std::string text = textOf(asl.parameters, "cameras");
   if (text.empty()) return all;
-  std::vector<std::size_t> wanted = numbersOf(text);
+  std::vector<std::size_t> wanted = cameraNumbersOf(text);
   for (auto number = wanted.begin(); number != wanted.end(); ++number) {
     const bool is_there = std::find(all.begin(), all.end(), *number) != all.end();
     if (is_there && std::find(wanted.begin(), number, *number) == number) continue;

@@ -28,12 +28,12 @@ inline namespace v1 {
 namespace reading {
 namespace {
 
-constexpr double kUsualRate = 30;
+constexpr double kUsualVideoRate = 30;
 constexpr double kLeastRate = 1e-6, kMostRate = 1e6;
 constexpr double kMostFrames = 1e7;
 
 struct Options {
-  double rate = 0;  // frames a second; 0: as the video says, else kUsualRate
+  double rate = 0;  // frames a second; 0: as the video says, else kUsualVideoRate
   int every = 1;    // takes each such frame
   Svar parameters;
 };
@@ -103,7 +103,7 @@ std::unique_ptr<Dataset> openImages(std::shared_ptr<const FileTree> tree,
   sequence.remarks = std::move(remarks);
   sequence.info = infoOf(title, options, sequence.remarks,
                          [&]() { return shapeOf(readImage(*tree, names.front())); });
-  const double rate = options.rate > 0 ? options.rate : kUsualRate;
+  const double rate = options.rate > 0 ? options.rate : kUsualVideoRate;
   sequence.info.clock = "the number of the image, by the rate";
   if (options.rate <= 0) sequence.remarks.say("images have no stamps: taken as 30 a second");
   ImageFiles files{std::move(tree), {}};
@@ -141,7 +141,7 @@ std::unique_ptr<Dataset> openPattern(const std::string& path, const Options& opt
   return openImages(std::move(tree), std::move(names), title, Remarks(), options);
 }
 
-std::unique_ptr<Dataset> openFolder(const std::string& path, const Options& options) {
+std::unique_ptr<Dataset> openImageFolder(const std::string& path, const Options& options) {
   std::shared_ptr<const FileTree> tree = FileTree::open(path);
   Remarks remarks;
   const Place place = findImageFolder(*tree, remarks);
@@ -265,7 +265,7 @@ std::unique_ptr<Dataset> openVideo(const std::string& path, const Options& optio
     sequence.info.clock = "the number of the frame, by the rate";
   }
   if (!(rate > 0 && rate < 1e6)) {
-    rate = kUsualRate;
+    rate = kUsualVideoRate;
     sequence.remarks.say("the video does not say how many frames it has a second: taken as 30");
   }
   const std::size_t count = frameCount(*video, path);
@@ -353,7 +353,7 @@ bool isDevice(const std::string& path) {
 
 std::unique_ptr<Dataset> openCvMono(const std::string& path, const Svar& parameters) {
   const Options options = optionsOf(parameters);
-  if (isFolderOrArchive(path)) return openFolder(path, options);  // be its name a number
+  if (isFolderOrArchive(path)) return openImageFolder(path, options);  // be its name a number
   if (isDevice(path)) return openDevice(path, options);
   if (nameIn(path).find_first_of("*?") != std::string::npos) return openPattern(path, options);
   return openVideo(path, options);

@@ -57,8 +57,8 @@ std::map<std::string, Setting> readConfig(const FileTree& tree) {
 }
 
 // Of "[a b c]", "[a,b,c]" or without the brackets.
-std::vector<double> numbersOf(const FileTree& tree, const std::string& name,
-                              const Setting& setting) {
+std::vector<double> configuredNumbers(const FileTree& tree, const std::string& name,
+                                      const Setting& setting) {
   std::string text(setting.line - 1, '\n');  // so that errors name the line
   for (const char c : setting.value) text += c == '[' || c == ']' ? ' ' : c;
   const std::string source = tree.nameOf(kConfig);
@@ -70,8 +70,8 @@ std::vector<double> numbersOf(const FileTree& tree, const std::string& name,
 }
 
 // Width, height, then pinhole, ATAN (relative to the size where below 1) or radtan with k3.
-Camera cameraOf(const FileTree& tree, const std::string& name, const Setting& setting) {
-  std::vector<double> p = numbersOf(tree, name, setting);
+Camera configuredCamera(const FileTree& tree, const std::string& name, const Setting& setting) {
+  std::vector<double> p = configuredNumbers(tree, name, setting);
   const auto fail = [&](const std::string& problem) {
     throw ParseError(tree.nameOf(kConfig), setting.line, 0, name + " " + problem);
   };
@@ -193,7 +193,7 @@ class DroneMap {
         (named == settings_.end() ? std::string("Camera") : named->second.value) + ".Paraments";
     const auto setting = settings_.find(name);
     if (setting != settings_.end()) {
-      sensor.camera = cameraOf(*tree_, name, setting->second);
+      sensor.camera = configuredCamera(*tree_, name, setting->second);
     } else {
       sequence_.remarks.say("config.cfg has no '" + name + "': the camera is not calibrated");
     }

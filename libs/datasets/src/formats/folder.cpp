@@ -56,9 +56,9 @@ Svar fields() {
                        {"ground_truth", ""}});
 }
 
-class Folder {
+class FolderReader {
  public:
-  Folder(std::shared_ptr<const FileTree> tree, const Svar& parameters)
+  FolderReader(std::shared_ptr<const FileTree> tree, const Svar& parameters)
       : tree_(std::move(tree)), parameters_(parameters) {
     try {
       description_ = completeParameters(
@@ -329,13 +329,13 @@ class Folder {
   Sequence sequence_;
 };
 
-std::unique_ptr<Dataset> openFolder(const std::string& path, const Svar& parameters) {
+std::unique_ptr<Dataset> openDescribedFolder(const std::string& path, const Svar& parameters) {
   std::shared_ptr<const FileTree> tree = FileTree::open(path);
   const Place place = findFolder(*tree, 1, [](const FileTree& files, const std::string& folder) {
     return files.has(joined(folder, kDescription));
   });
   if (!place.is_found) throw FileError(tree->root(), "has no dataset.yaml, expected one");
-  return Folder(below(std::move(tree), place.folder), parameters).open();
+  return FolderReader(below(std::move(tree), place.folder), parameters).open();
 }
 
 }  // namespace
@@ -347,7 +347,7 @@ DatasetFactory folderFactory() {
   factory.description = "Your own cameras: a folder that dataset.yaml describes";
   factory.parameters = reading::commonParameters();
   factory.recognizes = reading::recognizesAs(factory.name);
-  factory.open = reading::openFolder;
+  factory.open = reading::openDescribedFolder;
   return factory;
 }
 

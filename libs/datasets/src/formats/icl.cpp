@@ -18,6 +18,7 @@
 #include "../reading/file_tree.h"
 #include "../reading/image_list.h"
 #include "../reading/looks_like.h"
+#include "../reading/second.h"
 #include "../reading/sequence.h"
 #include "camera_parameters.h"
 #include "icl_mirror.h"
@@ -31,9 +32,6 @@ inline namespace v1 {
 namespace reading {
 namespace {
 
-constexpr std::int64_t kRate = 30;
-constexpr double kDepthUnits = 5000;
-constexpr std::int64_t kSecond = 1000000000;
 constexpr std::int64_t kListTolerance = kSecond / 50;  // as TUM RGB-D's lists are associated
 
 bool beginsWith(const std::string& name, const std::string& begin) {
@@ -43,7 +41,7 @@ bool beginsWith(const std::string& name, const std::string& begin) {
 // Whole numbers are those of frames, 30 of which make a second. They were read as seconds: 42 is
 // 42e9.
 std::int64_t stampOfFrame(std::int64_t seconds) {
-  return stampAtRate(static_cast<std::size_t>(seconds / kSecond), kRate);
+  return stampAtRate(static_cast<std::size_t>(seconds / kSecond), kIclRate);
 }
 
 bool isFrame(std::int64_t seconds) {
@@ -123,7 +121,7 @@ class IclReader {
       if (depth_.empty()) throw FileError(nameBelow("depth"), "has no image that is listed");
       std::vector<CameraSensor>& cameras = sequence_.info.sensors.cameras;
       cameras.push_back(
-          depthOf(cameras[0], *tree_, depth_[0].file, depthFactorOf(parameters_, kDepthUnits)));
+          depthOf(cameras[0], *tree_, depth_[0].file, depthFactorOf(parameters_, kTumDepthUnits)));
       lists.push_back(depth_);
     }
     const std::int64_t tolerance = is_associated || counts_frames_ ? 0 : kListTolerance;
@@ -284,7 +282,7 @@ DatasetFactory iclFactory() {
   factory.description = "ICL-NUIM: rendered colour and depth with exact poses";
   factory.parameters = reading::commonParameters();
   factory.parameters.set("depth", true);
-  factory.parameters.set("depth_factor", reading::kDepthUnits);
+  factory.parameters.set("depth_factor", reading::kTumDepthUnits);
   reading::addCameraParameters(factory.parameters);
   factory.parameters.set("mirror", true);
   factory.parameters.set("unit", 0.0);

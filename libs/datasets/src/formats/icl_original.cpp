@@ -32,7 +32,6 @@ inline namespace v1 {
 namespace reading {
 namespace {
 
-constexpr std::int64_t kRate = 30;
 constexpr double kBackground = 1e5;  // POV-Ray's distance of what no ray hits is 1e7
 
 // The lines `name = [x, y, z]';` of a file.
@@ -164,7 +163,7 @@ class OriginalReader {
 
   void readPoses() {
     for (const OriginalFrame& frame : frames_) {
-      const std::int64_t stamp = stampAtRate(frame.number, kRate);
+      const std::int64_t stamp = stampAtRate(frame.number, kIclRate);
       sequence_.stamps.push_back(stamp);
       if (!tree_->has(frame.base + ".txt")) {
         sequence_.remarks.skip("cameras that have no file", frame.base + ".txt");

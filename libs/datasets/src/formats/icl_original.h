@@ -5,6 +5,7 @@
 #include <gslam/core/image.h>
 #include <gslam/geometry/se3.h>
 
+#include <cstdint>
 #include <string>
 
 #include "../reading/file_tree.h"
@@ -13,6 +14,8 @@
 namespace gslam {
 inline namespace v1 {
 namespace reading {
+
+constexpr std::int64_t kIclRate = 30;  ///< frames a second, of both forms
 
 /// A camera as a .txt file of POV-Ray's has it.
 struct PovCamera {

@@ -28,7 +28,7 @@ inline namespace v1 {
 namespace reading {
 namespace {
 
-constexpr std::int64_t kUsualRate = 10;
+constexpr std::int64_t kKittiRate = 10;
 
 class KittiReader {
  public:
@@ -114,7 +114,7 @@ class KittiReader {
         sequence_.remarks.skip("images that times.txt has no time for", image.name);
         continue;
       }
-      const std::int64_t stamp = has_times ? times[line] : stampAtRate(image.number, kUsualRate);
+      const std::int64_t stamp = has_times ? times[line] : stampAtRate(image.number, kKittiRate);
       list.push_back({stamp, image.name, i + 1, 0});
     }
     tidy(list, *tree_, below("times.txt"), sequence_.remarks);

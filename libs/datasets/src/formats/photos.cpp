@@ -11,6 +11,7 @@
 #include "../reading/image_list.h"
 #include "../reading/looks_like.h"
 #include "../reading/photo_facts.h"
+#include "../reading/second.h"
 #include "camera_parameters.h"
 #include "gnss_samples.h"
 #include "natural_order.h"
@@ -20,7 +21,7 @@ inline namespace v1 {
 namespace reading {
 namespace {
 
-constexpr std::int64_t kSecond = 1000000000, kTwinStep = 1000000;
+constexpr std::int64_t kTwinStep = 1000000;
 // What receivers of drones reach, metres and radians, one sigma; EXIF has no field for it.
 constexpr double kSigmaAcross = 5, kSigmaUp = 10, kSigmaTurn = 0.1;
 constexpr double kFilmWidth = 36;  // millimetres

@@ -15,6 +15,9 @@ namespace gslam {
 inline namespace v1 {
 namespace reading {
 
+/// Of a pixel, in a metre, in TUM RGB-D and what is compatible with it.
+constexpr double kTumDepthUnits = 5000;
+
 /// The camera of a line `[model] fx fy cx cy ...`; without a model it is pinhole, or radtan where
 /// more than four numbers stand there.
 /// @param source         what errors call the text

@@ -11,6 +11,7 @@
 
 #include "../reading/decode.h"
 #include "../reading/file_tree.h"
+#include "../reading/second.h"
 
 namespace gslam {
 inline namespace v1 {
@@ -33,7 +34,7 @@ bool numberIn(const std::string& name, std::size_t& number);
 /// Stamp of a frame where only the rate is known, nanoseconds.
 /// @param rate  frames a second
 constexpr std::int64_t stampAtRate(std::size_t frame, std::int64_t rate) {
-  return (static_cast<std::int64_t>(frame) * 1000000000 + rate / 2) / rate;
+  return (static_cast<std::int64_t>(frame) * kSecond + rate / 2) / rate;
 }
 
 /// What an image file is like. Reads it.

@@ -32,8 +32,8 @@ inline namespace v1 {
 namespace reading {
 namespace {
 
-constexpr std::int64_t kRate = 30;
-constexpr double kDepthUnits = 1000;
+constexpr std::int64_t kSevenScenesRate = 30;
+constexpr double kSevenScenesDepthUnits = 1000;
 constexpr std::uint16_t kNoDepth = 65535;
 constexpr double kPoseTolerance = 0.01;  // KinectFusion let its matrices drift a little
 const char* const kIntrinsics = "camera-intrinsics.txt";
@@ -165,7 +165,7 @@ class SevenScenesReader {
     cameras.push_back(cameraOf("rgb", cameraFor(shape)));
     if (!has_depth_) return;
     cameras.push_back(depthOf(cameras[0], *tree_, below(frames_[0].base + ".depth.png"),
-                              depthFactorOf(parameters_, kDepthUnits)));
+                              depthFactorOf(parameters_, kSevenScenesDepthUnits)));
     sequence_.remarks.say(
         "depth and colour are those of two cameras and not registered to each other: both have the "
         "depth camera's calibration and pose, which is wrong for colour by a few pixels");
@@ -173,7 +173,7 @@ class SevenScenesReader {
 
   void makeStamps() {
     for (const SceneFrame& frame : frames_) {
-      sequence_.stamps.push_back(stampAtRate(frame.number, kRate));
+      sequence_.stamps.push_back(stampAtRate(frame.number, kSevenScenesRate));
     }
   }
 
@@ -246,7 +246,7 @@ DatasetFactory sevenScenesFactory() {
   factory.parameters = reading::commonParameters();
   factory.parameters.set("sequence", Svar());
   factory.parameters.set("depth", true);
-  factory.parameters.set("depth_factor", reading::kDepthUnits);
+  factory.parameters.set("depth_factor", reading::kSevenScenesDepthUnits);
   reading::addCameraParameters(factory.parameters);
   factory.recognizes = reading::recognizesAs("7scenes");
   factory.open = [](const std::string& path, const Svar& parameters) {

@@ -19,6 +19,7 @@
 #include "../calibration/formats.h"
 #include "../reading/file_tree.h"
 #include "../reading/looks_like.h"
+#include "../reading/second.h"
 #include "../reading/sequence.h"
 #include "number_file.h"
 #include "sequences.h"
@@ -116,7 +117,7 @@ class StrechaReader {
     const std::string folder = strechaCameraFolder(*tree_, folder_);
     for (const std::string& image : images_) {
       const std::string file = joined(folder, image + kEnding);
-      const std::int64_t stamp = static_cast<std::int64_t>(sequence_.stamps.size()) * 1000000000;
+      const std::int64_t stamp = static_cast<std::int64_t>(sequence_.stamps.size()) * kSecond;
       if (!tree_->has(file)) {
         sequence_.remarks.skip("images without a camera, whose pose is not known", image);
         continue;

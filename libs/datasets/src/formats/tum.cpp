@@ -17,6 +17,7 @@
 #include "../reading/file_tree.h"
 #include "../reading/image_list.h"
 #include "../reading/looks_like.h"
+#include "../reading/second.h"
 #include "../reading/sequence.h"
 #include "camera_parameters.h"
 #include "rgbd_camera.h"
@@ -42,7 +43,6 @@ const std::vector<Published>& publishedCameras() {
 }
 
 constexpr int kPublishedWidth = 640, kPublishedHeight = 480;
-constexpr double kDepthUnits = 5000;
 
 Camera cameraOfValues(const std::vector<double>& values, const ImageShape& shape) {
   const Camera camera = Camera::fromParameters(values.size() > 4 ? "radtan" : "pinhole",
@@ -123,7 +123,6 @@ class TumReader {
 
   // ICL-NUIM's stamps are numbers of frames.
   void sayIfIcl(const std::vector<ListedImage>& images) {
-    constexpr std::int64_t kSecond = 1000000000;
     for (const ListedImage& image : images) {
       const bool is_frame = image.stamp >= 0 && image.stamp % kSecond == 0;
       if (!is_frame || image.stamp / kSecond >= 1000000) return;
@@ -170,7 +169,7 @@ class TumReader {
     lists.push_back(listOf("depth.txt"));
     std::vector<CameraSensor>& cameras = sequence_.info.sensors.cameras;
     cameras.push_back(
-        depthOf(cameras[0], *tree_, lists[1][0].file, depthFactorOf(parameters_, kDepthUnits)));
+        depthOf(cameras[0], *tree_, lists[1][0].file, depthFactorOf(parameters_, kTumDepthUnits)));
   }
 
   // Motion capture; stamps that were rounded stand there twice.
@@ -253,7 +252,7 @@ DatasetFactory tumFactory() {
   factory.parameters = reading::commonParameters();
   factory.parameters.set("depth", true);
   factory.parameters.set("tolerance", 0.02);
-  factory.parameters.set("depth_factor", reading::kDepthUnits);
+  factory.parameters.set("depth_factor", reading::kTumDepthUnits);
   reading::addCameraParameters(factory.parameters);
   factory.recognizes = reading::recognizesAs("tum");
   factory.open = [](const std::string& path, const Svar& parameters) {

@@ -18,7 +18,7 @@ std::string placeOf(const ListedImage& image, const std::string& list) {
   return image.file + " (" + list + ":" + std::to_string(image.line) + ")";
 }
 
-std::vector<std::int64_t> stampsOf(const std::vector<ListedImage>& images) {
+std::vector<std::int64_t> stampsOfImages(const std::vector<ListedImage>& images) {
   std::vector<std::int64_t> stamps(images.size());
   std::transform(images.begin(), images.end(), stamps.begin(),
                  [](const ListedImage& image) { return image.stamp; });
@@ -31,13 +31,13 @@ std::string milliseconds(std::int64_t nanoseconds) {
   return text;
 }
 
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+constexpr std::size_t kNoPartner = static_cast<std::size_t>(-1);
 
 // For each image of the first list the place of its partner in another one.
 std::vector<std::size_t> partners(const std::vector<std::int64_t>& first,
                                   const std::vector<ListedImage>& other, std::int64_t tolerance) {
-  std::vector<std::size_t> result(first.size(), kNone);
-  for (const StampPair& pair : associate(first, stampsOf(other), tolerance)) {
+  std::vector<std::size_t> result(first.size(), kNoPartner);
+  for (const StampPair& pair : associate(first, stampsOfImages(other), tolerance)) {
     result[pair.a] = pair.b;
   }
   return result;
@@ -103,7 +103,7 @@ std::vector<std::string> makeFrames(Sequence& sequence,
                                     const std::vector<std::vector<ListedImage>>& lists,
                                     std::int64_t tolerance) {
   const std::vector<CameraSensor>& cameras = sequence.info.sensors.cameras;
-  const std::vector<std::int64_t> first = stampsOf(lists.at(0));
+  const std::vector<std::int64_t> first = stampsOfImages(lists.at(0));
   std::vector<std::vector<std::size_t>> places;
   std::vector<std::vector<bool>> is_used;
   for (const std::vector<ListedImage>& list : lists) {
@@ -113,7 +113,7 @@ std::vector<std::string> makeFrames(Sequence& sequence,
   std::vector<std::string> names;
   for (std::size_t i = 0; i < first.size(); ++i) {
     const auto lacks = std::find_if(places.begin(), places.end(),
-                                    [i](const auto& one) { return one[i] == kNone; });
+                                    [i](const auto& one) { return one[i] == kNoPartner; });
     if (lacks != places.end()) continue;  // said below
     sequence.stamps.push_back(first[i]);
     for (std::size_t camera = 0; camera < lists.size(); ++camera) {

@@ -8,6 +8,8 @@
 #include <exiv2/exiv2.hpp>
 #include <mutex>
 
+#include "second.h"
+
 namespace gslam {
 inline namespace v1 {
 namespace reading {
@@ -87,8 +89,6 @@ std::int64_t daysTo(int year, int month, int day) {
   const std::int64_t of_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
   return era * 146097 + of_era * 365 + of_era / 4 - of_era / 100 + of_year - 719468;
 }
-
-constexpr std::int64_t kSecond = 1000000000;
 
 // "2016:06:23 16:31:59" and the digits of a fraction; 0 where it is no date.
 std::int64_t stampOf(const std::string& date, const std::string& fraction_digits) {

@@ -10,8 +10,6 @@ namespace detail {
 namespace synthetic {
 namespace {
 
-const Vec3f kUp = {{0, 0, 1}};
-
 // Light comes from above and one side.
 float lightOn(const Vec3f& normal) {
   return 0.76F + 0.24F * (0.36F * normal[0] + 0.48F * normal[1] + 0.8F * normal[2]);

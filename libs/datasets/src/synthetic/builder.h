@@ -14,6 +14,8 @@ inline namespace v1 {
 namespace detail {
 namespace synthetic {
 
+const Vec3f kUp = {{0, 0, 1}};
+
 class Builder {
  public:
   /// @param detail  all texels are this many times as large

@@ -14,6 +14,7 @@
 #include "imu.h"
 #include "motion.h"
 #include "options.h"
+#include "pi.h"
 #include "rays.h"
 #include "render.h"
 #include "sensor_image.h"
@@ -28,7 +29,6 @@ namespace {
 constexpr std::int64_t kFirstStamp = 1000000000;
 constexpr float kLowContrast = 0.06F;
 constexpr double kSwingSeconds = 7;
-constexpr double kPi = 3.14159265358979323846;
 
 // Cameras at one place, with the same rays: one picture for all of them.
 struct Eye {

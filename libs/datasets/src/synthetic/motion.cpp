@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "hash.h"
+#include "pi.h"
 
 namespace gslam {
 inline namespace v1 {
@@ -13,7 +14,6 @@ namespace detail {
 namespace synthetic {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kMostControls = 1e5;
 
 double pausedBefore(const std::vector<Pause>& pauses, double time) {

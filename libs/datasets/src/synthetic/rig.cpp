@@ -4,14 +4,13 @@
 #include <string>
 
 #include "options.h"
+#include "pi.h"
 
 namespace gslam {
 inline namespace v1 {
 namespace detail {
 namespace synthetic {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // Usual parameters of a model: those of well known calibrations, scaled to the image.
 std::vector<double> usualLens(const std::string& model, int width, int height) {

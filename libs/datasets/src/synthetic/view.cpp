@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pi.h"
+
 namespace gslam {
 inline namespace v1 {
 namespace detail {
 namespace synthetic {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 float clamp(float x, float low, float high) {
   return std::min(std::max(x, low), high);

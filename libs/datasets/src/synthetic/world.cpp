@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pi.h"
+
 namespace gslam {
 inline namespace v1 {
 namespace detail {
 namespace synthetic {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // The way around a rectangle, counterclockwise, from the middle of its right edge.
 Vec3d placeOnRectangle(double half_x, double half_y, double radius, double way, Vec3d& outwards) {

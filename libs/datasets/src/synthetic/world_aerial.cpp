@@ -15,9 +15,9 @@ constexpr int kCells = 60;
 constexpr float kRelief = 9;   // metres up and down
 constexpr float kFlight = 72;  // metres above the mean
 
-class Land {
+class Countryside {
  public:
-  Land(std::uint64_t seed, float detail, Scene& scene)
+  Countryside(std::uint64_t seed, float detail, Scene& scene)
       : build_(scene, seed, detail), scene_(scene), hills_(build_.random(), 2, 5, 0.45F) {}
 
   void make() {
@@ -82,7 +82,7 @@ class Land {
 }  // namespace
 
 void makeAerial(std::uint64_t seed, float detail, int movers, World& world) {
-  Land land(seed, detail, world.scene);
+  Countryside land(seed, detail, world.scene);
   land.make();
   land.addMovers(movers);
   Route& route = world.route;

@@ -10,11 +10,10 @@ namespace detail {
 namespace synthetic {
 namespace {
 
-constexpr float kHeight = 2.7F;
+constexpr float kCorridorHeight = 2.7F;
 constexpr float kHalfWidth = 1.35F;
-constexpr float kExtent = 2.2F;
-constexpr float kTexel = 0.004F;
-const Vec3f kUp = {{0, 0, 1}};
+constexpr float kCorridorExtent = 2.2F;
+constexpr float kCorridorTexel = 0.004F;
 
 class Corridor {
  public:
@@ -25,9 +24,10 @@ class Corridor {
         phase_(build_.random.uniform(0, 6.28F)) {}
 
   void make() {
-    crates_ = build_.paintMany(Material::crate, 2, kExtent, kExtent, kTexel);
-    metal_ = build_.paintMany(Material::metal, 2, kExtent, kExtent, kTexel);
-    doors_ = build_.paintMany(Material::planks, 3, 1.1F, 2.1F, kTexel);
+    crates_ =
+        build_.paintMany(Material::crate, 2, kCorridorExtent, kCorridorExtent, kCorridorTexel);
+    metal_ = build_.paintMany(Material::metal, 2, kCorridorExtent, kCorridorExtent, kCorridorTexel);
+    doors_ = build_.paintMany(Material::planks, 3, 1.1F, 2.1F, kCorridorTexel);
     for (int side = 0; side < 4; ++side) makeSide(side);
     for (int side = 0; side < 4; ++side) {
       makeWall(side, kHalfWidth, false);
@@ -47,7 +47,8 @@ class Corridor {
       scene.movers.push_back(mover);
       const int place = static_cast<int>(scene.movers.size()) - 1;
       const Surface& surface = build_.any(crates_);
-      build_.box({{0, 0, 0}}, {{0.4F, 0.5F, 1.5F}}, 0, surface, surface, kExtent, place, true);
+      build_.box({{0, 0, 0}}, {{0.4F, 0.5F, 1.5F}}, 0, surface, surface, kCorridorExtent, place,
+                 true);
     }
   }
 
@@ -74,8 +75,8 @@ class Corridor {
     const Vec3f corner = (a.far - kHalfWidth) * a.out - (a.half - kHalfWidth) * a.along;
     const Material ground = side % 2 == 0 ? Material::tiles : Material::concrete;
     build_.rectangle(corner, a.out, a.along, width, length,
-                     build_.paint(ground, width, length, kTexel));
-    build_.rectangle(corner + kHeight * kUp, a.along, a.out, length, width,
+                     build_.paint(ground, width, length, kCorridorTexel));
+    build_.rectangle(corner + kCorridorHeight * kUp, a.along, a.out, length, width,
                      build_.paint(Material::ceiling, length, width, 0.005F));
   }
 
@@ -87,9 +88,9 @@ class Corridor {
     const Vec3f way = is_inner ? -a.along : a.along;  // its right is where it is seen from
     const Vec3f from = middle - half * (-way), to = middle + half * (-way);
     const Material materials[3] = {Material::wallpaper, Material::plaster, Material::bricks};
-    build_.wall(
-        from, to, kHeight,
-        build_.paint(materials[(side + (is_inner ? 1 : 0)) % 3], 2 * half, kHeight, kTexel));
+    build_.wall(from, to, kCorridorHeight,
+                build_.paint(materials[(side + (is_inner ? 1 : 0)) % 3], 2 * half, kCorridorHeight,
+                             kCorridorTexel));
     const Vec3f inwards = is_inner ? a.out : -a.out;
     furnish(from, -way, inwards, 2 * half, is_inner);
     if (!is_inner) addPipe(middle + inwards * 0.16F, a.along, half);
@@ -110,7 +111,7 @@ class Corridor {
         const float height = build_.random.uniform(0.7F, 1.05F);
         const Material material = kind == 1 ? Material::notices : Material::poster;
         build_.wall(low + at * along, low + (at + width) * along, height,
-                    build_.paint(material, width, height, kTexel));
+                    build_.paint(material, width, height, kCorridorTexel));
         if (!is_inner && kind == 2 && at > 2 && at < length - 3.5F)
           addThing(from, along, inwards, at);
       }
@@ -133,7 +134,7 @@ class Corridor {
     } else {
       const float yaw = std::atan2(along[1], along[0]);
       build_.box(base, {{1.5F * size, size, 1.2F * size}}, yaw, build_.any(crates_),
-                 build_.any(crates_), kExtent);
+                 build_.any(crates_), kCorridorExtent);
     }
   }
 
@@ -141,7 +142,8 @@ class Corridor {
   void addPipe(const Vec3f& middle, const Vec3f& along, float half) {
     for (int i = 0; i < 2; ++i) {
       const float at = build_.random.uniform(-half + 2, half - 2);
-      build_.cylinder(middle + at * along, 0.07F, kHeight, build_.any(metal_), build_.any(metal_));
+      build_.cylinder(middle + at * along, 0.07F, kCorridorHeight, build_.any(metal_),
+                      build_.any(metal_));
     }
   }
 

@@ -12,9 +12,9 @@ namespace detail {
 namespace synthetic {
 namespace {
 
-constexpr float kHeight = 2.9F;
-constexpr float kExtent = 2.2F;  // of the textures of things
-constexpr float kTexel = 0.004F;
+constexpr float kRoomHeight = 2.9F;
+constexpr float kRoomExtent = 2.2F;  // of the textures of things
+constexpr float kRoomTexel = 0.004F;
 
 // One of the four walls: along it, and into the room.
 struct Side {
@@ -33,11 +33,11 @@ class Room {
 
   void make() {
     makeShell();
-    things_ = {build_.paintMany(Material::crate, 3, kExtent, kExtent, kTexel),
-               build_.paintMany(Material::fabric, 2, kExtent, kExtent, kTexel),
-               build_.paintMany(Material::metal, 2, kExtent, kExtent, kTexel)};
-    books_ = build_.paintMany(Material::books, 3, kExtent, kExtent, kTexel);
-    wood_ = build_.paint(Material::planks, kExtent, kExtent, kTexel);
+    things_ = {build_.paintMany(Material::crate, 3, kRoomExtent, kRoomExtent, kRoomTexel),
+               build_.paintMany(Material::fabric, 2, kRoomExtent, kRoomExtent, kRoomTexel),
+               build_.paintMany(Material::metal, 2, kRoomExtent, kRoomExtent, kRoomTexel)};
+    books_ = build_.paintMany(Material::books, 3, kRoomExtent, kRoomExtent, kRoomTexel);
+    wood_ = build_.paint(Material::planks, kRoomExtent, kRoomExtent, kRoomTexel);
     const Side sides[4] = {{{{x_, y_, 0}}, {{0, -1, 0}}, {{-1, 0, 0}}, 2 * y_, 0},
                            {{{x_, -y_, 0}}, {{-1, 0, 0}}, {{0, 1, 0}}, 2 * x_, 1.5707963F},
                            {{{-x_, -y_, 0}}, {{0, 1, 0}}, {{1, 0, 0}}, 2 * y_, 0},
@@ -61,8 +61,8 @@ class Room {
       if (i % 2 == 0) {
         build_.sphere({{0, 0, 0}}, build_.random.uniform(0.16F, 0.28F), surface, place);
       } else {
-        build_.box({{0, 0, -0.2F}}, {{0.4F, 0.4F, 0.4F}}, 0.4F, surface, surface, kExtent, place,
-                   true);
+        build_.box({{0, 0, -0.2F}}, {{0.4F, 0.4F, 0.4F}}, 0.4F, surface, surface, kRoomExtent,
+                   place, true);
       }
     }
   }
@@ -75,10 +75,10 @@ class Room {
   void makeShell() {
     build_.floor(-x_, -y_, 0, 2 * x_, 2 * y_,
                  build_.paint(build_.random.below(2) == 0 ? Material::planks : Material::tiles,
-                              2 * x_, 2 * y_, kTexel));
+                              2 * x_, 2 * y_, kRoomTexel));
     build_.floor(-1.8F, -2.4F, 0.004F, 3.6F, 4.8F,
-                 build_.paint(Material::carpet, 3.6F, 4.8F, kTexel));
-    build_.ceiling(-x_, -y_, kHeight, 2 * x_, 2 * y_,
+                 build_.paint(Material::carpet, 3.6F, 4.8F, kRoomTexel));
+    build_.ceiling(-x_, -y_, kRoomHeight, 2 * x_, 2 * y_,
                    build_.paint(Material::ceiling, 2 * y_, 2 * x_, 0.006F));
     const Vec3f corners[4] = {{{x_, y_, 0}}, {{x_, -y_, 0}}, {{-x_, -y_, 0}}, {{-x_, y_, 0}}};
     const Material materials[3] = {Material::wallpaper, Material::bricks, Material::plaster};
@@ -86,8 +86,9 @@ class Room {
     for (int i = 0; i < 4; ++i) {
       const Vec3f& from = corners[i];
       const Vec3f& to = corners[(i + 1) % 4];
-      build_.wall(from, to, kHeight,
-                  build_.paint(materials[(first + i) % 3], (to - from).norm(), kHeight, kTexel));
+      build_.wall(
+          from, to, kRoomHeight,
+          build_.paint(materials[(first + i) % 3], (to - from).norm(), kRoomHeight, kRoomTexel));
     }
   }
 
@@ -118,19 +119,20 @@ class Room {
   void addShelf(const Side& side, float at, float width) {
     const Vec3f base = side.from + (at + width / 2) * side.along + 0.21F * side.inwards;
     build_.box(base, {{0.4F, width, build_.random.uniform(1.7F, 2.15F)}}, side.yaw,
-               build_.any(books_), wood_, kExtent);
+               build_.any(books_), wood_, kRoomExtent);
   }
 
   void addCabinet(const Side& side, float at, float width) {
     const Vec3f base = side.from + (at + width / 2) * side.along + 0.31F * side.inwards;
     const float height = build_.random.uniform(0.6F, 1);
-    build_.box(base, {{0.55F, width, height}}, side.yaw, build_.any(things_[0]), wood_, kExtent);
+    build_.box(base, {{0.55F, width, height}}, side.yaw, build_.any(things_[0]), wood_,
+               kRoomExtent);
     const float radius = build_.random.uniform(0.13F, 0.22F);
     const Vec3f above = base + Vec3f{{0, 0, height}};
     build_.sphere(above + Vec3f{{0, 0, radius}} + (0.25F * width) * side.along, radius,
                   build_.any(things_[1]));
     build_.box(above - (0.22F * width) * side.along, {{0.3F, 0.35F, 0.3F}},
-               build_.random.uniform(0, 1.5F), build_.any(things_[0]), wood_, kExtent);
+               build_.random.uniform(0, 1.5F), build_.any(things_[0]), wood_, kRoomExtent);
     addPicture(side, at, width, 1.6F);
   }
 
@@ -146,18 +148,18 @@ class Room {
     const Material material = build_.random.below(3) == 0 ? Material::notices : Material::poster;
     build_.wall(side.from + at * side.along + 0.012F * side.inwards + Vec3f{{0, 0, low}},
                 side.from + (at + width) * side.along + 0.012F * side.inwards + Vec3f{{0, 0, low}},
-                height, build_.paint(material, width, height, kTexel));
+                height, build_.paint(material, width, height, kRoomTexel));
   }
 
   void makeTable() {
     const Vec3f size = {{1.1F, 1.8F, 0.06F}};
     const float yaw = build_.random.uniform(-0.3F, 0.3F);
-    build_.box({{0, 0, 0.7F}}, size, yaw, wood_, wood_, kExtent, -1, true);
+    build_.box({{0, 0, 0.7F}}, size, yaw, wood_, wood_, kRoomExtent, -1, true);
     const float c = std::cos(yaw), s = std::sin(yaw);
     for (int i = 0; i < 4; ++i) {
       const float x = i % 2 == 0 ? 0.48F : -0.48F, y = i / 2 == 0 ? 0.82F : -0.82F;
       build_.box({{c * x - s * y, s * x + c * y, 0}}, {{0.07F, 0.07F, 0.7F}}, yaw, wood_, wood_,
-                 kExtent);
+                 kRoomExtent);
     }
     for (int i = 0; i < 5; ++i) {
       const float x = build_.random.uniform(-0.3F, 0.3F), y = 0.32F * static_cast<float>(i - 2);
@@ -166,7 +168,7 @@ class Room {
       const Surface& surface = build_.any(things_[static_cast<unsigned>(i) % 3U]);
       if (i % 3 == 0) {
         build_.box(base, {{1.5F * size_of_it, size_of_it, 1.6F * size_of_it}},
-                   build_.random.uniform(0, 3), surface, surface, kExtent);
+                   build_.random.uniform(0, 3), surface, surface, kRoomExtent);
       } else if (i % 3 == 1) {
         build_.sphere(base + Vec3f{{0, 0, size_of_it}}, size_of_it, surface);
       } else {

@@ -10,11 +10,10 @@ namespace detail {
 namespace synthetic {
 namespace {
 
-constexpr float kRoad = 4.6F;   // from the middle of the road to its kerb
-constexpr float kHouse = 8.5F;  // and to the houses
-constexpr float kExtent = 24;   // of facades
-constexpr float kTexel = 0.02F;
-const Vec3f kUp = {{0, 0, 1}};
+constexpr float kRoad = 4.6F;        // from the middle of the road to its kerb
+constexpr float kHouse = 8.5F;       // and to the houses
+constexpr float kFacadeExtent = 24;  // of facades
+constexpr float kStreetTexel = 0.02F;
 
 class Street {
  public:
@@ -26,12 +25,12 @@ class Street {
 
   void make() {
     scene_.clouds.reset(new NoiseField(build_.random(), 2, 7, 0.55F));
-    facades_ = build_.paintMany(Material::facade, 4, kExtent, 13, kTexel);
-    shops_ = build_.paintMany(Material::shop, 3, kExtent, 13, kTexel);
+    facades_ = build_.paintMany(Material::facade, 4, kFacadeExtent, 13, kStreetTexel);
+    shops_ = build_.paintMany(Material::shop, 3, kFacadeExtent, 13, kStreetTexel);
     cars_ = build_.paintMany(Material::car, 4, 6, 2, 0.01F);
     leaves_ = build_.paintMany(Material::leaves, 2, 8, 8, 0.02F);
     bark_ = build_.paint(Material::bark, 2, 3.5F, 0.01F);
-    roof_ = build_.paint(Material::roof, kExtent, kExtent, 0.1F);
+    roof_ = build_.paint(Material::roof, kFacadeExtent, kFacadeExtent, 0.1F);
     metal_ = build_.paint(Material::metal, 2, 5, 0.01F);
     for (int side = 0; side < 4; ++side) {
       makeGround(side);
@@ -79,7 +78,7 @@ class Street {
 
   void makeGround(int side) {
     const Axes a = axes(side);
-    strip(a, -kRoad, 2 * kRoad, -a.half + kRoad, 2 * a.half, 0, Material::asphalt, kTexel);
+    strip(a, -kRoad, 2 * kRoad, -a.half + kRoad, 2 * a.half, 0, Material::asphalt, kStreetTexel);
     // Of the pavements that meet at a corner only one has it.
     const bool has_corner = side % 2 == 0;
     const float inner = a.half - (has_corner ? kRoad : kHouse);
@@ -103,7 +102,7 @@ class Street {
                          (at + width / 2) * a.along;
       const Surface& sides = build_.any(build_.random.below(2) == 0 ? shops_ : facades_);
       build_.box(base, {{depth, width, height}}, std::atan2(a.out[1], a.out[0]), sides, roof_,
-                 kExtent);
+                 kFacadeExtent);
       at += width;
     }
   }
@@ -151,7 +150,7 @@ class Street {
 
   void addKiosk(const Vec3f& base, float yaw) {
     const Surface& sides = build_.any(shops_);
-    build_.box(base, {{build_.random.uniform(1, 2), 1.1F, 2.3F}}, yaw, sides, roof_, kExtent);
+    build_.box(base, {{build_.random.uniform(1, 2), 1.1F, 2.3F}}, yaw, sides, roof_, kFacadeExtent);
   }
 
   Builder build_;

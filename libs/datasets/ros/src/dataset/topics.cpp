@@ -6,6 +6,7 @@
 #include <set>
 
 #include "messages/messages.h"
+#include "storage/text.h"
 
 namespace gslam {
 inline namespace v1 {
@@ -16,17 +17,6 @@ constexpr const char* kImage = "sensor_msgs/Image";
 constexpr const char* kCompressed = "sensor_msgs/CompressedImage";
 constexpr const char* kCameraInfo = "sensor_msgs/CameraInfo";
 constexpr const char* kNone = "none";
-
-bool contains(const std::string& text, const char* part) {
-  return text.find(part) != std::string::npos;
-}
-
-std::string lower(std::string text) {
-  for (char& c : text) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return text;
-}
 
 // "/cam0/image_raw" to {"/cam0", "image_raw"}.
 std::string folderOf(const std::string& topic) {

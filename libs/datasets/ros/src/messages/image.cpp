@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "reading/decode.h"
+#include "storage/text.h"
 #include "wire.h"
 
 namespace gslam {
@@ -128,10 +129,6 @@ DecodedImage decodeRaw(const ImageMessage& message, bool is_depth, const std::st
 }
 
 namespace {
-
-bool contains(const std::string& text, const char* part) {
-  return text.find(part) != std::string::npos;
-}
 
 struct DepthHead {
   std::int32_t format = 0;

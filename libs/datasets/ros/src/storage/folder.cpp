@@ -8,6 +8,7 @@
 
 #include "../bytes/byte_source.h"
 #include "file_kind.h"
+#include "text.h"
 
 namespace gslam {
 inline namespace v1 {
@@ -47,13 +48,6 @@ std::string readText(const std::string& path) {
 // metadata.yaml of old versions has names with the folder's name before them.
 std::string nameIn(const std::string& path) {
   return path.substr(path.rfind('/') + 1);
-}
-
-std::string lower(std::string text) {
-  for (char& c : text) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return text;
 }
 
 // Its messages would come twice.
