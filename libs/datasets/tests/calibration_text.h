@@ -5,9 +5,9 @@
 #include <gslam/datasets/calibration_file.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <string>
-#include <vector>
+
+#include "words.h"
 
 namespace calibration_text {
 
@@ -32,15 +32,6 @@ inline std::string errorOf(const std::string& text, const gslam::CalibrationOpti
     return error.what();
   }
   return "";
-}
-
-inline bool has(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
-}
-
-inline bool says(const std::vector<std::string>& list, const std::string& words) {
-  return std::any_of(list.begin(), list.end(),
-                     [&](const std::string& sentence) { return has(sentence, words); });
 }
 
 /// A text with a part replaced, which must be there.

@@ -12,7 +12,7 @@ namespace {
 
 using namespace format_case;  // NOLINT(google-build-using-namespace)
 
-constexpr int kWidth = 64, kHeight = 48;
+constexpr int kGivenWidth = 64, kGivenHeight = 48;
 
 // ORB-SLAM2's settings, as most users have them.
 const char* const kSettings =
@@ -27,15 +27,15 @@ class calibrationWithoutSize : public testing::Test {
                 const std::string& model = "pinhole") const {
     gslam::SyntheticOptions options;
     options.frames = 3;
-    options.width = kWidth;
-    options.height = kHeight;
+    options.width = kGivenWidth;
+    options.height = kGivenHeight;
     options.sensors = sensors;
     options.model = model;
     gslam::exportDataset(*gslam::openSynthetic(options), sequence_, format);
   }
   void writeImages(const std::vector<std::string>& names, int type = CV_8UC3) const {
     for (std::size_t i = 0; i < names.size(); ++i) {
-      writeImage(sequence_ + "/" + names[i], numbered(kWidth, kHeight, int(i), type));
+      writeImage(sequence_ + "/" + names[i], numbered(kGivenWidth, kGivenHeight, int(i), type));
     }
   }
   void expectRead(const DatasetFactory& factory, const std::string& path = "") const {
@@ -46,8 +46,8 @@ class calibrationWithoutSize : public testing::Test {
   }
   static void expectCamera(const gslam::Camera& camera) {
     EXPECT_EQ(camera.modelName(), "radtan");
-    EXPECT_EQ(camera.width(), kWidth);
-    EXPECT_EQ(camera.height(), kHeight);
+    EXPECT_EQ(camera.width(), kGivenWidth);
+    EXPECT_EQ(camera.height(), kGivenHeight);
     EXPECT_EQ(camera.parameters(), (std::vector<double>{50.5, 51.5, 31.5, 23.5, 0.1, -0.01, 0, 0}));
   }
 
@@ -83,8 +83,8 @@ TEST_F(calibrationWithoutSize, Icl) {
 TEST_F(calibrationWithoutSize, SevenScenes) {
   for (int i = 0; i < 2; ++i) {
     const std::string base = sequence_ + "/frame-00000" + std::to_string(i);
-    writeImage(base + ".color.png", numbered(kWidth, kHeight, i, CV_8UC3));
-    writeImage(base + ".depth.png", numbered(kWidth, kHeight, i, CV_16UC1));
+    writeImage(base + ".color.png", numbered(kGivenWidth, kGivenHeight, i, CV_8UC3));
+    writeImage(base + ".depth.png", numbered(kGivenWidth, kGivenHeight, i, CV_16UC1));
     writeText(base + ".pose.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
   }
   expectRead(gslam::sevenScenesFactory());
@@ -111,9 +111,9 @@ TEST_F(calibrationWithoutSize, CvMonosVideo) {
   const std::string video = folder_ / "video.avi";
   {
     cv::VideoWriter writer(video, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 10,
-                           {kWidth, kHeight});
+                           {kGivenWidth, kGivenHeight});
     ASSERT_TRUE(writer.isOpened());
-    for (int i = 0; i < 3; ++i) writer << numbered(kWidth, kHeight, i, CV_8UC3);
+    for (int i = 0; i < 3; ++i) writer << numbered(kGivenWidth, kGivenHeight, i, CV_8UC3);
   }
   expectRead(gslam::cvMonoFactory(), video);
 }

@@ -4,10 +4,11 @@
 #include <gslam/datasets/synthetic.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+
+#include "words.h"
 
 namespace {
 
@@ -17,12 +18,6 @@ using gslam::DatasetInfo;
 using gslam::Frame;
 using gslam::Image;
 using gslam::PixelType;
-
-bool has(const std::vector<std::string>& sentences, const std::string& text) {
-  return std::any_of(sentences.begin(), sentences.end(), [&](const std::string& sentence) {
-    return sentence.find(text) != std::string::npos;
-  });
-}
 
 // A dataset of ten frames with nothing wrong, but for what `spoil` does to it.
 struct Parts {
@@ -167,18 +162,18 @@ TEST(check_dataset, finds_each_fault) {
   for (const Fault& fault : faults) {
     const DatasetCheck check = checkOf(fault.spoil);
     if (*fault.warning == '\0') {
-      EXPECT_TRUE(has(check.errors, fault.error)) << fault.error;
+      EXPECT_TRUE(says(check.errors, fault.error)) << fault.error;
       continue;
     }
-    EXPECT_TRUE(has(check.warnings, fault.warning)) << fault.warning;
+    EXPECT_TRUE(says(check.warnings, fault.warning)) << fault.warning;
     EXPECT_TRUE(check.errors.empty()) << fault.warning << ": " << check.errors[0];
   }
 }
 
 // Frames that cannot be read, one that fails for ever, and a count that is wrong.
-class Broken : public gslam::Dataset {
+class HalfBroken : public gslam::Dataset {
  public:
-  explicit Broken(std::size_t stated) { info_.frame_count = stated; }
+  explicit HalfBroken(std::size_t stated) { info_.frame_count = stated; }
   const DatasetInfo& info() const override { return info_; }
   std::shared_ptr<const Frame> next() override {
     if (at_ == 7) return nullptr;
@@ -195,19 +190,19 @@ class Broken : public gslam::Dataset {
   std::size_t at_ = 0;
 };
 
-class Endless : public Broken {
+class Endless : public HalfBroken {
  public:
-  Endless() : Broken(0) {}
+  Endless() : HalfBroken(0) {}
   std::shared_ptr<const Frame> next() override { throw gslam::Error("nothing works"); }
 };
 
 TEST(check_dataset, counts_what_cannot_be_read) {
-  Broken dataset(9);
+  HalfBroken dataset(9);
   const DatasetCheck check = checkDataset(dataset);
   EXPECT_EQ(check.frames, 4U);
-  EXPECT_TRUE(
-      has(check.errors, "frame 1 (2.png): cannot be read: a file is damaged (and 2 more like it)"));
-  EXPECT_TRUE(has(check.errors, "there are 7 frames, but it says 9"));
+  EXPECT_TRUE(says(check.errors,
+                   "frame 1 (2.png): cannot be read: a file is damaged (and 2 more like it)"));
+  EXPECT_TRUE(says(check.errors, "there are 7 frames, but it says 9"));
 }
 
 TEST(check_dataset, ends_where_everything_fails) {
@@ -218,15 +213,15 @@ TEST(check_dataset, ends_where_everything_fails) {
 }
 
 TEST(check_dataset, can_be_stopped_and_refuses_devices) {
-  Broken dataset(7);
+  HalfBroken dataset(7);
   const std::atomic<bool> stop{true};
   gslam::CheckOptions options;
   options.stop = &stop;
   EXPECT_TRUE(checkDataset(dataset, options).is_stopped);
   DatasetInfo info;
-  class Live : public Broken {
+  class Live : public HalfBroken {
    public:
-    Live() : Broken(0) { info_.is_live = true; }
+    Live() : HalfBroken(0) { info_.is_live = true; }
   } live;
   EXPECT_THROW(checkDataset(live), gslam::ArgumentError);
 }

@@ -162,7 +162,7 @@ TEST(ContactSheet, OptionsOutOfRange) {
 }
 
 TEST(ContactSheet, FileHasTheSamePixels) {
-  const TempFolder folder;
+  const NewFolder folder;
   const auto dataset = colours(4);
   writeContactSheet(*dataset, folder / "sheet.png");
   EXPECT_TRUE(samePixels<std::uint8_t>(readImage(folder / "sheet.png"), drawContactSheet(*dataset),

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "export_case.h"
+#include "thrown.h"
 
 namespace {
 
@@ -27,17 +28,6 @@ Case fitting(const std::string& format) {
   c.has_depth = true;
   c.has_imu = true;
   return c;
-}
-
-template <class E>
-std::string messageOf(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const E& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return "";
 }
 
 // A dataset some of whose frames cannot be read.
@@ -87,24 +77,24 @@ TEST(Export, FormatsAreListedAndKnown) {
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_EQ(formats[i].name, kFormats[i]);
     EXPECT_FALSE(formats[i].summary.empty());
-    const TempFolder folder;
+    const NewFolder folder;
     EXPECT_EQ(exportDataset(*fitting(kFormats[i]).dataset(), folder / "x", kFormats[i]).frames, 5U);
   }
 }
 
 TEST(ExportBadInput, UnknownFormatNamesTheKnown) {
-  const TempFolder folder;
+  const NewFolder folder;
   const std::string message =
-      messageOf<ArgumentError>([&] { exportDataset(*Case().dataset(), folder / "x", "rosbag"); });
+      thrownBy<ArgumentError>([&] { exportDataset(*Case().dataset(), folder / "x", "rosbag"); });
   EXPECT_EQ(message, "format is 'rosbag', expected one of tum, euroc, kitti, icl, tummono, tumvi");
   EXPECT_FALSE(fs::exists(folder / "x"));
 }
 
 TEST(ExportBadInput, FolderThatIsNotEmptyIsLeftAlone) {
-  const TempFolder folder;
+  const NewFolder folder;
   std::ofstream(folder / "precious") << "data";
   for (const char* format : kFormats) {
-    const std::string message = messageOf<FileError>(
+    const std::string message = thrownBy<FileError>(
         [&] { exportDataset(*fitting(format).dataset(), folder.path(), format); });
     EXPECT_NE(message.find("is not empty"), std::string::npos) << message;
   }
@@ -115,7 +105,7 @@ TEST(ExportBadInput, FolderThatIsNotEmptyIsLeftAlone) {
 }
 
 TEST(ExportBadInput, FolderThatCannotBeMade) {
-  const TempFolder folder;
+  const NewFolder folder;
   std::ofstream(folder / "file") << "data";
   EXPECT_THROW(exportDataset(*Case().dataset(), folder / "file/below", "tum"), FileError);
   EXPECT_THROW(exportDataset(*Case().dataset(), "/proc/gslam/x", "tum"), FileError);
@@ -123,19 +113,19 @@ TEST(ExportBadInput, FolderThatCannotBeMade) {
 }
 
 TEST(ExportBadInput, EmptyFolderIsFine) {
-  const TempFolder folder;
+  const NewFolder folder;
   EXPECT_EQ(exportDataset(*Case().dataset(), folder.path(), "tum").frames, 5U);
 }
 
 TEST(ExportBadInput, FullDiskNamesTheFileAndLeavesWholeOnes) {
   for (const char* format : kFormats) {
     SCOPED_TRACE(format);
-    const TempFolder folder;
+    const NewFolder folder;
     const auto dataset = fitting(format).dataset();
     std::string message;
     {
       const FileSizeLimit limit(1000);  // less than an image of noise
-      message = messageOf<FileError>([&] { exportDataset(*dataset, folder / "x", format); });
+      message = thrownBy<FileError>([&] { exportDataset(*dataset, folder / "x", format); });
     }
     EXPECT_EQ(message.rfind(folder / "x", 0), 0U) << message;
     EXPECT_NE(message.find("File too large"), std::string::npos) << message;
@@ -163,7 +153,7 @@ TEST(ExportBadInput, DiskThatBecomesFullLeavesWholeFrames) {
       {"tumvi", {"dso/cam0/times.txt", "mav0/cam0/data.csv", "mav0/cam0/data"}}};
   for (const char* format : kFormats) {
     SCOPED_TRACE(format);
-    const TempFolder folder;
+    const NewFolder folder;
     Case c = fitting(format);
     c.frames = 120;
     const std::string name = format;
@@ -187,7 +177,7 @@ TEST(ExportBadInput, DiskThatBecomesFullLeavesWholeFrames) {
 TEST(ExportBadInput, WithoutGroundTruthThereIsNone) {
   for (const char* format : kFormats) {
     SCOPED_TRACE(format);
-    const TempFolder folder;
+    const NewFolder folder;
     Case c = fitting(format);
     c.has_truth = false;
     const ExportReport report = exportDataset(*c.dataset(), folder / "x", format);
@@ -206,7 +196,7 @@ TEST(ExportBadInput, WithoutGroundTruthThereIsNone) {
 TEST(ExportBadInput, WithoutModelWhereItMustBe) {
   for (const char* format : kFormats) {
     SCOPED_TRACE(format);
-    const TempFolder folder;
+    const NewFolder folder;
     Case c = fitting(format);
     c.models = {""};
     const std::string name = format;
@@ -216,7 +206,7 @@ TEST(ExportBadInput, WithoutModelWhereItMustBe) {
       continue;
     }
     const std::string message =
-        messageOf<ArgumentError>([&] { exportDataset(*c.dataset(), folder / "x", format); });
+        thrownBy<ArgumentError>([&] { exportDataset(*c.dataset(), folder / "x", format); });
     EXPECT_NE(message.find("camera 'cam0' has no camera model"), std::string::npos) << message;
     EXPECT_FALSE(fs::exists(folder / "x")) << "before anything is written";
   }
@@ -235,11 +225,11 @@ TEST(ExportBadInput, ModelsThatALayoutLacksAreRefusedWithThoseItHas) {
   for (const auto& each : cases) {
     for (const std::string& model : each.refused) {
       SCOPED_TRACE(each.format + (" " + model));
-      const TempFolder folder;
+      const NewFolder folder;
       Case c = fitting(each.format);
       c.models = {model};
       const std::string message =
-          messageOf<ArgumentError>([&] { exportDataset(*c.dataset(), folder / "x", each.format); });
+          thrownBy<ArgumentError>([&] { exportDataset(*c.dataset(), folder / "x", each.format); });
       EXPECT_NE(message.find("camera 'cam0' has the model"), std::string::npos) << message;
       EXPECT_NE(message.find(std::string(each.format) + " can only have"), std::string::npos)
           << message;
@@ -249,15 +239,15 @@ TEST(ExportBadInput, ModelsThatALayoutLacksAreRefusedWithThoseItHas) {
 }
 
 TEST(ExportBadInput, RigsThatALayoutCannotHave) {
-  const TempFolder folder;
+  const NewFolder folder;
   Case c;
   c.models = {"pinhole", "pinhole"};
   c.is_rectified = false;
-  EXPECT_NE(messageOf<ArgumentError>([&] {
+  EXPECT_NE(thrownBy<ArgumentError>([&] {
               exportDataset(*c.dataset(), folder / "x", "kitti");
             }).find("is not the rectified right one"),
             std::string::npos);
-  EXPECT_NE(messageOf<ArgumentError>([&] {
+  EXPECT_NE(thrownBy<ArgumentError>([&] {
               exportDataset(*Case().dataset(), folder / "x", "icl");
             }).find("has no depth images"),
             std::string::npos);
@@ -268,7 +258,7 @@ TEST(ExportBadInput, RigsThatALayoutCannotHave) {
   info.sensors.cameras[1].T_body_camera = SE3d();
   for (const char* format : {"tum", "icl"}) {
     gslam::MemoryDataset dataset(info, frames);
-    EXPECT_NE(messageOf<ArgumentError>([&] {
+    EXPECT_NE(thrownBy<ArgumentError>([&] {
                 exportDataset(dataset, folder / "x", format);
               }).find("measures depth from elsewhere"),
               std::string::npos);
@@ -276,7 +266,7 @@ TEST(ExportBadInput, RigsThatALayoutCannotHave) {
   info.sensors.cameras.erase(info.sensors.cameras.begin());
   for (const char* format : kFormats) {
     gslam::MemoryDataset dataset(info, frames);
-    EXPECT_NE(messageOf<ArgumentError>([&] {
+    EXPECT_NE(thrownBy<ArgumentError>([&] {
                 exportDataset(dataset, folder / "x", format);
               }).find("has no camera for brightness or colour"),
               std::string::npos);
@@ -285,7 +275,7 @@ TEST(ExportBadInput, RigsThatALayoutCannotHave) {
 }
 
 TEST(ExportBadInput, SequencesThatAreNoFileNames) {
-  const TempFolder folder;
+  const NewFolder folder;
   for (const char* name : {"..", "../x", "a/b", ".hidden", "a b", "a\nb"}) {
     ExportOptions options;
     options.sequence = name;
@@ -297,7 +287,7 @@ TEST(ExportBadInput, SequencesThatAreNoFileNames) {
 TEST(ExportBadInput, FramesThatCannotBeReadAreCounted) {
   for (const char* format : kFormats) {
     SCOPED_TRACE(format);
-    const TempFolder folder;
+    const NewFolder folder;
     Broken dataset(fitting(format), [](std::size_t i) { return i == 1 || i == 2; });
     const ExportReport report = exportDataset(dataset, folder / "x", format);
     EXPECT_EQ(report.frames, 3U);
@@ -306,15 +296,15 @@ TEST(ExportBadInput, FramesThatCannotBeReadAreCounted) {
 }
 
 TEST(ExportBadInput, NothingReadable) {
-  const TempFolder folder;
+  const NewFolder folder;
   Broken dataset(Case(), [](std::size_t) { return true; });
   const std::string message =
-      messageOf<Error>([&] { exportDataset(dataset, folder / "x", "euroc"); });
+      thrownBy<Error>([&] { exportDataset(dataset, folder / "x", "euroc"); });
   EXPECT_EQ(message, "no frame could be written: cannot be read: 0000.png: is truncated");
   Case many;
   many.frames = 150;
   Broken longer(many, [](std::size_t i) { return i > 10; });
-  EXPECT_NE(messageOf<Error>([&] {
+  EXPECT_NE(thrownBy<Error>([&] {
               exportDataset(longer, folder / "y", "euroc");
             }).find("100 frames in a row"),
             std::string::npos);
@@ -323,7 +313,7 @@ TEST(ExportBadInput, NothingReadable) {
 
 TEST(ExportBadInput, NoFrames) {
   for (const char* format : kFormats) {
-    const TempFolder folder;
+    const NewFolder folder;
     Case c = fitting(format);
     c.frames = 0;
     EXPECT_EQ(exportDataset(*c.dataset(), folder / "x", format).frames, 0U);
@@ -333,7 +323,7 @@ TEST(ExportBadInput, NoFrames) {
 TEST(ExportBadInput, FramesWithStrangeImagesAreLeftOut) {
   for (const char* format : kFormats) {
     SCOPED_TRACE(format);
-    const TempFolder folder;
+    const NewFolder folder;
     const Case c = fitting(format);
     const gslam::DatasetInfo info = c.info();
     auto frames = c.makeFrames(info);
@@ -355,10 +345,10 @@ TEST(ExportBadInput, FramesWithStrangeImagesAreLeftOut) {
 }
 
 TEST(ExportBadInput, DepthWithoutScale) {
-  const TempFolder folder;
+  const NewFolder folder;
   Case c = fitting("tum");
   c.depth_scale = 0;
-  EXPECT_NE(messageOf<Error>([&] {
+  EXPECT_NE(thrownBy<Error>([&] {
               exportDataset(*c.dataset(), folder / "x", "tum");
             }).find("has the depth scale 0"),
             std::string::npos);
@@ -367,7 +357,7 @@ TEST(ExportBadInput, DepthWithoutScale) {
 TEST(ExportBadInput, StampsThatDoNotGoOn) {
   for (const char* format : kFormats) {
     SCOPED_TRACE(format);
-    const TempFolder folder;
+    const NewFolder folder;
     const Case c = fitting(format);
     const gslam::DatasetInfo info = c.info();
     auto frames = c.makeFrames(info);
@@ -384,7 +374,7 @@ TEST(ExportBadInput, StampsThatDoNotGoOn) {
 TEST(ExportBadInput, NumbersThatAreNotFinite) {
   for (const char* format : kFormats) {
     SCOPED_TRACE(format);
-    const TempFolder folder;
+    const NewFolder folder;
     const Case c = fitting(format);
     gslam::DatasetInfo info = c.info();
     info.ground_truth.add(kFirstStamp + 1000, SE3d(SO3d(), {{NAN, 0, 0}}));
@@ -415,7 +405,7 @@ TEST(ExportBadInput, StampsAtTheEndsOfTime) {
   for (const std::int64_t first : {std::numeric_limits<std::int64_t>::min() + kPeriod * 2,
                                    std::int64_t(-kPeriod), std::int64_t(0)}) {
     for (const char* format : kFormats) {
-      const TempFolder folder;
+      const NewFolder folder;
       Case c = fitting(format);
       c.first_stamp = first;
       c.has_truth = false;
@@ -432,7 +422,7 @@ TEST(Export, StopsAfterAFrameAndLeavesAWholeDataset) {
       {"tummono", "times.txt"},  {"tumvi", "dso/cam0/times.txt"}};
   for (const char* format : kFormats) {
     SCOPED_TRACE(format);
-    const TempFolder folder;
+    const NewFolder folder;
     std::atomic<bool> stop{false};
     ExportOptions options;
     options.stop = &stop;
@@ -452,7 +442,7 @@ TEST(Export, StopsAfterAFrameAndLeavesAWholeDataset) {
 }
 
 TEST(Export, ProgressThatThrowsLeavesAWholeDataset) {
-  const TempFolder folder;
+  const NewFolder folder;
   ExportOptions options;
   options.progress = [](std::size_t done, std::size_t) {
     if (done == 3) throw std::runtime_error("enough");
@@ -463,7 +453,7 @@ TEST(Export, ProgressThatThrowsLeavesAWholeDataset) {
 }
 
 TEST(Export, TakesAsManyFramesAsAskedFromWhereTheDatasetIs) {
-  const TempFolder folder;
+  const NewFolder folder;
   const auto dataset = Case().dataset();
   dataset->seek(1);
   ExportOptions options;

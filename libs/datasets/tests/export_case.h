@@ -6,7 +6,6 @@
 #include <gslam/datasets/export_dataset.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -19,7 +18,9 @@
 #include <string>
 #include <vector>
 
+#include "frame_at.h"
 #include "new_folder.h"
+#include "words.h"
 
 namespace export_case {
 
@@ -37,8 +38,6 @@ constexpr int kWidth = 40, kHeight = 30;
 constexpr std::int64_t kFirstStamp = 1403715273262142976;
 constexpr std::int64_t kPeriod = 50000001;  // no whole microsecond
 constexpr std::int64_t kImuPeriod = 5000003;
-
-using TempFolder = NewFolder;
 
 inline Image randomImage(std::mt19937& random, PixelType type, int channels) {
   Image image(kWidth, kHeight, type, channels);
@@ -296,21 +295,8 @@ testing::AssertionResult samePixels(const cv::Mat& file, const Image& image,
   return testing::AssertionSuccess();
 }
 
-/// The frame i again.
-inline std::shared_ptr<const Frame> frameAt(gslam::Dataset& dataset, std::size_t i) {
-  dataset.seek(i);
-  return dataset.next();
-}
-
 inline std::size_t countFiles(const std::string& folder) {
   return std::size_t(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
-}
-
-/// Whether a sentence of the list has the words.
-inline bool says(const std::vector<std::string>& list, const std::string& words) {
-  return std::any_of(list.begin(), list.end(), [&](const std::string& sentence) {
-    return sentence.find(words) != std::string::npos;
-  });
 }
 
 }  // namespace export_case

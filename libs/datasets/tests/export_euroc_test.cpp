@@ -19,7 +19,7 @@ Case stereoInertial(const std::string& model) {
 }
 
 TEST(ExportEuroc, ImagesAndStampsReadBack) {
-  const TempFolder folder;
+  const NewFolder folder;
   const auto dataset = stereoInertial("radtan4").dataset();
   const ExportReport report = exportDataset(*dataset, folder / "euroc", "euroc");
   EXPECT_EQ(report.frames, 5U);
@@ -39,7 +39,7 @@ TEST(ExportEuroc, ImagesAndStampsReadBack) {
 }
 
 TEST(ExportEuroc, CalibrationReadsBack) {
-  const TempFolder folder;
+  const NewFolder folder;
   const Case c = stereoInertial("radtan4");
   exportDataset(*c.dataset(), folder / "euroc", "euroc");
   for (std::size_t i = 0; i < 2; ++i) {
@@ -66,7 +66,7 @@ TEST(ExportEuroc, CalibrationReadsBack) {
 }
 
 TEST(ExportEuroc, OpenCvReadsTheYaml) {
-  const TempFolder folder;
+  const NewFolder folder;
   exportDataset(*stereoInertial("pinhole").dataset(), folder / "euroc", "euroc");
   for (const char* name : {"cam0/sensor.yaml", "imu0/sensor.yaml", "body.yaml",
                            "state_groundtruth_estimate0/sensor.yaml"}) {
@@ -91,7 +91,7 @@ TEST(ExportEuroc, OtherModels) {
                {"radtan5flat", " radial-tangential", {-0.28, 0.07, 0.0002, 1.76e-05}},
                {"kannala_brandt", " equidistant", {0.0035, 0.0007, -0.002, 0.0002}}};
   for (const auto& each : cases) {
-    const TempFolder folder;
+    const NewFolder folder;
     exportDataset(*stereoInertial(each.model).dataset(), folder / "euroc", "euroc");
     const std::string text = readText(folder / "euroc/mav0/cam1/sensor.yaml");
     EXPECT_EQ(yamlValue(text, "distortion_model"), each.word);
@@ -117,14 +117,14 @@ void expectSamples(const std::vector<std::vector<std::string>>& rows, gslam::Dat
 }
 
 TEST(ExportEuroc, InertialSamplesReadBack) {
-  const TempFolder folder;
+  const NewFolder folder;
   const auto dataset = stereoInertial("pinhole").dataset();
   exportDataset(*dataset, folder / "euroc", "euroc");
   expectSamples(readTable(folder / "euroc/mav0/imu0/data.csv", ","), *dataset);
 }
 
 TEST(ExportEuroc, GroundTruthOfTheBodyWithVelocities) {
-  const TempFolder folder;
+  const NewFolder folder;
   const auto dataset = stereoInertial("pinhole").dataset();
   const ExportReport report = exportDataset(*dataset, folder / "euroc", "euroc");
   const auto rows = readTable(folder / "euroc/mav0/state_groundtruth_estimate0/data.csv", ",");
@@ -147,7 +147,7 @@ TEST(ExportEuroc, GroundTruthOfTheBodyWithVelocities) {
 
 TEST(ExportEuroc, VelocitiesOfFewPoses) {
   for (int poses = 1; poses <= 2; ++poses) {
-    const TempFolder folder;
+    const NewFolder folder;
     Case c;
     c.has_truth = false;
     gslam::DatasetInfo info = c.info();
@@ -166,7 +166,7 @@ TEST(ExportEuroc, ColourAndWideGreyBecomeGrey) {
   Case c;
   c.kind = ImageKind::rgb;
   {
-    const TempFolder folder;
+    const NewFolder folder;
     const auto dataset = c.dataset();
     const ExportReport report = exportDataset(*dataset, folder / "euroc", "euroc");
     const cv::Mat file =
@@ -183,7 +183,7 @@ TEST(ExportEuroc, ColourAndWideGreyBecomeGrey) {
   }
   c.kind = ImageKind::grey;
   c.type = PixelType::u16;
-  const TempFolder folder;
+  const NewFolder folder;
   const auto dataset = c.dataset();
   exportDataset(*dataset, folder / "euroc", "euroc");
   const cv::Mat file =
@@ -195,7 +195,7 @@ TEST(ExportEuroc, ColourAndWideGreyBecomeGrey) {
 }
 
 TEST(ExportEuroc, RatesThatAreNotKnownAreMeasured) {
-  const TempFolder folder;
+  const NewFolder folder;
   const Case c = stereoInertial("pinhole");
   gslam::DatasetInfo info = c.info();
   for (CameraSensor& camera : info.sensors.cameras) camera.rate = 0;
@@ -211,7 +211,7 @@ TEST(ExportEuroc, RatesThatAreNotKnownAreMeasured) {
 TEST(ExportEuroc, FilesAreThoseOfTheRealOne) {
   NEEDS_TEST_DATA();
   const std::string real = test_data::folder() + "sequences/euroc_V1_01_easy/";
-  const TempFolder folder;
+  const NewFolder folder;
   exportDataset(*stereoInertial("radtan4").dataset(), folder / "euroc", "euroc");
   for (const auto& entry : fs::recursive_directory_iterator(real + "mav0")) {
     const std::string name = fs::relative(entry.path(), real).string();
@@ -244,7 +244,7 @@ TEST(ExportEuroc, FilesAreThoseOfTheRealOne) {
 }
 
 TEST(ExportTumvi, SixteenBitsAndTheSameImagesForDso) {
-  const TempFolder folder;
+  const NewFolder folder;
   const auto dataset = stereoInertial("kannala_brandt").dataset();
   const ExportReport report = exportDataset(*dataset, folder / "tumvi", "tumvi");
   EXPECT_TRUE(says(report.remarks, "upper 8 of 16"));
@@ -271,7 +271,7 @@ TEST(ExportTumvi, SixteenBitsAndTheSameImagesForDso) {
 }
 
 TEST(ExportTumvi, WideGreyIsUnchanged) {
-  const TempFolder folder;
+  const NewFolder folder;
   Case c;
   c.models = {"kannala_brandt"};
   c.type = PixelType::u16;
@@ -294,7 +294,7 @@ SE3d kalibrPose(const std::vector<std::string>& lines, std::size_t key_line) {
 }
 
 TEST(ExportTumvi, CalibrationIsRelativeToTheImu) {
-  const TempFolder folder;
+  const NewFolder folder;
   const Case c = stereoInertial("kannala_brandt");
   exportDataset(*c.dataset(), folder / "tumvi", "tumvi");
   const SE3d T_imu_body = Case::poseOfImu().inverse();
@@ -325,7 +325,7 @@ TEST(ExportTumvi, CalibrationIsRelativeToTheImu) {
 }
 
 TEST(ExportTumvi, PosesAreThoseOfTheImu) {
-  const TempFolder folder;
+  const NewFolder folder;
   const auto dataset = stereoInertial("kannala_brandt").dataset();
   exportDataset(*dataset, folder / "tumvi", "tumvi");
   const auto mocap = readTable(folder / "tumvi/mav0/mocap0/data.csv", ",");
@@ -340,7 +340,7 @@ TEST(ExportTumvi, PosesAreThoseOfTheImu) {
 }
 
 TEST(ExportTumvi, DsoHasAnInertialSampleAtEachImage) {
-  const TempFolder folder;
+  const NewFolder folder;
   const auto dataset = stereoInertial("kannala_brandt").dataset();
   exportDataset(*dataset, folder / "tumvi", "tumvi");
   expectSamples(readTable(folder / "tumvi/mav0/imu0/data.csv", ","), *dataset);

@@ -20,7 +20,7 @@ std::vector<double> numbersOf(const std::vector<std::string>& row, std::size_t f
 }
 
 TEST(ExportKitti, ImagesAndStampsReadBack) {
-  const TempFolder folder;
+  const NewFolder folder;
   const auto dataset = stereo().dataset();
   gslam::ExportOptions options;
   options.sequence = "06";
@@ -41,7 +41,7 @@ TEST(ExportKitti, ImagesAndStampsReadBack) {
 }
 
 TEST(ExportKitti, PosesAreRelativeToTheFirstCamera) {
-  const TempFolder folder;
+  const NewFolder folder;
   const auto dataset = stereo().dataset();
   exportDataset(*dataset, folder / "kitti", "kitti");
   const auto rows = readTable(folder / "kitti/poses/00.txt");
@@ -59,7 +59,7 @@ TEST(ExportKitti, PosesAreRelativeToTheFirstCamera) {
 
 // A point's pixels by the matrices are those by the cameras.
 TEST(ExportKitti, ProjectionsAreThoseOfTheCameras) {
-  const TempFolder folder;
+  const NewFolder folder;
   const Case c = stereo();
   const auto dataset = c.dataset();
   exportDataset(*dataset, folder / "kitti", "kitti");
@@ -84,7 +84,7 @@ TEST(ExportKitti, ProjectionsAreThoseOfTheCameras) {
 }
 
 TEST(ExportKitti, OneColourCamera) {
-  const TempFolder folder;
+  const NewFolder folder;
   Case c;
   c.kind = ImageKind::bgr;
   c.has_depth = true;
@@ -98,7 +98,7 @@ TEST(ExportKitti, OneColourCamera) {
 }
 
 TEST(ExportKitti, AFrameWithoutPoseMeansNoPoses) {
-  const TempFolder folder;
+  const NewFolder folder;
   Case c = stereo();
   c.has_truth = false;
   gslam::DatasetInfo info = c.info();
@@ -112,7 +112,7 @@ TEST(ExportKitti, AFrameWithoutPoseMeansNoPoses) {
 }
 
 TEST(ExportKitti, AFrameWithoutOneImageIsLeftOut) {
-  const TempFolder folder;
+  const NewFolder folder;
   const Case c = stereo();
   const gslam::DatasetInfo info = c.info();
   auto frames = c.makeFrames(info);
@@ -131,7 +131,7 @@ TEST(ExportKitti, AFrameWithoutOneImageIsLeftOut) {
 TEST(ExportKitti, FilesAreThoseOfTheRealOne) {
   NEEDS_TEST_DATA();
   const std::string real = test_data::folder() + "sequences/kitti_06/";
-  const TempFolder folder;
+  const NewFolder folder;
   gslam::ExportOptions options;
   options.sequence = "06";
   exportDataset(*stereo().dataset(), folder / "kitti", "kitti", options);
@@ -156,7 +156,7 @@ TEST(ExportKitti, FilesAreThoseOfTheRealOne) {
 }
 
 TEST(ExportTummono, ImagesTimesAndPosesReadBack) {
-  const TempFolder folder;
+  const NewFolder folder;
   Case c;
   c.models = {"fov", "fov"};
   const auto dataset = c.dataset();
@@ -192,7 +192,7 @@ TEST(ExportTummono, CalibrationsAsItsReadersWantThem) {
                {"kannala_brandt", "EquiDistant ", {0.0035, 0.0007, -0.002, 0.0002}, "crop"}};
   for (const auto& each : cases) {
     SCOPED_TRACE(each.model);
-    const TempFolder folder;
+    const NewFolder folder;
     Case c;
     c.models = {each.model};
     c.exposure = 0;
@@ -226,7 +226,7 @@ TEST(ExportTummono, CalibrationsAsItsReadersWantThem) {
 }
 
 TEST(ExportTummono, FramesWithoutGroundTruthAreNaN) {
-  const TempFolder folder;
+  const NewFolder folder;
   Case c;
   c.has_truth = false;
   gslam::DatasetInfo info = c.info();

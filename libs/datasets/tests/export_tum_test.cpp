@@ -19,7 +19,7 @@ Case rgbd() {
 }
 
 TEST(ExportTum, ImagesAndStampsReadBack) {
-  const TempFolder folder;
+  const NewFolder folder;
   const auto dataset = rgbd().dataset();
   const ExportReport report = exportDataset(*dataset, folder / "tum", "tum");
   EXPECT_EQ(report.frames, 5U);
@@ -46,7 +46,7 @@ TEST(ExportTum, ImagesAndStampsReadBack) {
 }
 
 TEST(ExportTum, PosesAreThoseOfTheCamera) {
-  const TempFolder folder;
+  const NewFolder folder;
   const auto dataset = rgbd().dataset();
   exportDataset(*dataset, folder / "tum", "tum");
   const auto rows = readTable(folder / "tum/groundtruth.txt");
@@ -61,7 +61,7 @@ TEST(ExportTum, PosesAreThoseOfTheCamera) {
 }
 
 TEST(ExportTum, AccelerationAndCalibration) {
-  const TempFolder folder;
+  const NewFolder folder;
   const auto dataset = rgbd().dataset();
   const ExportReport report = exportDataset(*dataset, folder / "tum", "tum");
   const auto rows = readTable(folder / "tum/accelerometer.txt");
@@ -84,7 +84,7 @@ TEST(ExportTum, AccelerationAndCalibration) {
 }
 
 TEST(ExportTum, ReportCountsWhatIsThere) {
-  const TempFolder folder;
+  const NewFolder folder;
   const ExportReport report = exportDataset(*rgbd().dataset(), folder / "tum", "tum");
   std::size_t files = 0, bytes = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder / "tum")) {
@@ -106,7 +106,7 @@ TEST(ExportTum, EveryOrderOfColours) {
                {ImageKind::grey, {0, 0, 0}}, {ImageKind::infrared, {0, 0, 0}}};
   for (const auto& each : cases) {
     SCOPED_TRACE(gslam::imageKindName(each.kind));
-    const TempFolder folder;
+    const NewFolder folder;
     Case c;
     c.kind = each.kind;
     const auto dataset = c.dataset();
@@ -120,7 +120,7 @@ TEST(ExportTum, EveryOrderOfColours) {
 }
 
 TEST(ExportTum, DepthInMetresAsFloat) {
-  const TempFolder folder;
+  const NewFolder folder;
   Case c = rgbd();
   c.depth_type = PixelType::f32;
   c.depth_scale = 1;
@@ -144,7 +144,7 @@ TEST(ExportTum, DepthInMetresAsFloat) {
 }
 
 TEST(ExportTum, DepthOfThisFactorIsUnchanged) {
-  const TempFolder folder;
+  const NewFolder folder;
   Case c = rgbd();
   c.depth_scale = 1.0 / 5000;
   const auto dataset = c.dataset();
@@ -157,7 +157,7 @@ TEST(ExportTum, DepthOfThisFactorIsUnchanged) {
 TEST(ExportTum, HeadsAreThoseOfTheRealOne) {
   NEEDS_TEST_DATA();
   const std::string real = test_data::folder() + "sequences/tum_rgbd_freiburg1_rpy/";
-  const TempFolder folder;
+  const NewFolder folder;
   exportDataset(*rgbd().dataset(), folder / "tum", "tum");
   for (const char* name : {"rgb.txt", "depth.txt", "groundtruth.txt", "accelerometer.txt"}) {
     const auto ours = readLines(folder / ("tum/" + std::string(name)));
@@ -174,7 +174,7 @@ TEST(ExportTum, HeadsAreThoseOfTheRealOne) {
 }
 
 TEST(ExportIcl, FramesAreNumbered) {
-  const TempFolder folder;
+  const NewFolder folder;
   Case c = rgbd();
   c.models = {"pinhole"};
   const auto dataset = c.dataset();
@@ -198,7 +198,7 @@ TEST(ExportIcl, FramesAreNumbered) {
 // A reader that takes fy as negative sees the points of the images where the dataset has them,
 // mirrored: y of the world is the other way round.
 TEST(ExportIcl, NegativeFocalLengthAndPosesGoTogether) {
-  const TempFolder folder;
+  const NewFolder folder;
   Case c = rgbd();
   c.models = {"pinhole"};
   const auto dataset = c.dataset();

@@ -22,10 +22,10 @@
 
 #include "export_case.h"
 #include "reading_case.h"
+#include "words.h"
 
 namespace format_case {
 
-using export_case::says;
 using gslam::Dataset;
 using gslam::DatasetFactory;
 using gslam::Frame;
@@ -82,10 +82,6 @@ inline std::unique_ptr<Dataset> open(const DatasetFactory& factory, const std::s
 inline std::string errorOf(const DatasetFactory& factory, const std::string& path,
                            const Svar& parameters = Svar()) {
   return reading_case::messageOf([&]() { open(factory, path, parameters); });
-}
-
-inline bool has(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
 }
 
 /// Whether two datasets deliver the same.

@@ -26,14 +26,14 @@ void writeSequence(const std::string& folder) {
   }
 }
 
-std::string realFolder() {
+std::string realKitchen() {
   return test_data::folder() + "sequences/7scenes_redkitchen";
 }
 
 TEST(read7Scenes, RealSequence) {
   NEEDS_TEST_DATA();
-  EXPECT_EQ(gslam::datasetFormatOf(realFolder()), "7scenes");
-  const auto dataset = open(sevenScenesFactory(), realFolder());
+  EXPECT_EQ(gslam::datasetFormatOf(realKitchen()), "7scenes");
+  const auto dataset = open(sevenScenesFactory(), realKitchen());
   const gslam::DatasetInfo& info = dataset->info();
   EXPECT_EQ(info.frame_count, 300U);
   ASSERT_EQ(info.sensors.cameras.size(), 2U);
@@ -49,16 +49,16 @@ TEST(read7Scenes, RealSequence) {
   EXPECT_TRUE(says(info.remarks, "no stamps"));
   dataset->seek(123);
   const auto frame = dataset->next();
-  const cv::Mat colour = export_case::readImage(realFolder() + "/frame-000123.color.jpg");
+  const cv::Mat colour = export_case::readImage(realKitchen() + "/frame-000123.color.jpg");
   EXPECT_TRUE(export_case::samePixels<std::uint8_t>(colour, frame->images[0].image, {0, 1, 2}));
-  cv::Mat depth = export_case::readImage(realFolder() + "/frame-000123.depth.png");
+  cv::Mat depth = export_case::readImage(realKitchen() + "/frame-000123.depth.png");
   depth.setTo(0, depth == 65535);  // this copy has none of them
   EXPECT_TRUE(export_case::samePixels<std::uint16_t>(depth, frame->images[1].image, {0}));
 }
 
 TEST(read7Scenes, DepthAndPosesFitTogether) {
   NEEDS_TEST_DATA();
-  const auto dataset = open(sevenScenesFactory(), realFolder());
+  const auto dataset = open(sevenScenesFactory(), realKitchen());
   for (const std::size_t i : {0U, 120U, 260U}) {
     dataset->seek(i);
     const auto a = dataset->next();

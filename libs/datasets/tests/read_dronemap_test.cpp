@@ -11,7 +11,7 @@ using reading_case::messageOf;
 using reading_case::openWith;
 using reading_case::TempFolder;
 
-const char* const kCamera =
+const char* const kConfig =
     "# a comment\r\n"
     "GPS.Origin = 108.7 34.2 500 // degrees\r\n"
     "Camera.Paraments=[16 12 10 11 7.5 5.5]\r\n"
@@ -20,7 +20,7 @@ const char* const kCamera =
 
 // Keyframes with poses.
 void writeKeyframes(const TempFolder& folder) {
-  folder.write("seq/config.cfg", kCamera);
+  folder.write("seq/config.cfg", kConfig);
   folder.write("seq/trajectory.txt",
                "1000.25 1 2 50 0.9238795 0.3826834 0 0\n"
                "1001.5 2 2 50 0.9238795 0.3826834 0 0\n"

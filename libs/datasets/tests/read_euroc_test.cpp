@@ -13,9 +13,8 @@
 namespace {
 
 using namespace format_case;  // NOLINT(google-build-using-namespace)
-using export_case::frameAt;
 
-std::string realFolder() {
+std::string realV101() {
   return test_data::folder() + "sequences/euroc_V1_01_easy";
 }
 
@@ -25,7 +24,7 @@ std::unique_ptr<Dataset> openEuroc(const std::string& path, const Svar& paramete
 
 TEST(readEuroc, RealFramesAreThoseOfTheirFiles) {
   NEEDS_TEST_DATA();
-  const auto dataset = openEuroc(realFolder());
+  const auto dataset = openEuroc(realV101());
   const gslam::DatasetInfo& info = dataset->info();
   EXPECT_EQ(info.name, "euroc_V1_01_easy");
   EXPECT_EQ(info.format, "euroc");
@@ -45,7 +44,7 @@ TEST(readEuroc, RealFramesAreThoseOfTheirFiles) {
   for (const auto& frame : frames) {
     ASSERT_EQ(frame->images.size(), 2U);
     for (const auto& image : frame->images) {
-      const cv::Mat file = export_case::readImage(realFolder() + "/mav0/" + image.name + "/data/" +
+      const cv::Mat file = export_case::readImage(realV101() + "/mav0/" + image.name + "/data/" +
                                                   std::to_string(frame->stamp) + ".png");
       EXPECT_TRUE(export_case::samePixels<std::uint8_t>(file, image.image, {0}));
     }
@@ -54,10 +53,10 @@ TEST(readEuroc, RealFramesAreThoseOfTheirFiles) {
 
 TEST(readEuroc, RealSamplesAreAllThere) {
   NEEDS_TEST_DATA();
-  const auto dataset = openEuroc(realFolder());
+  const auto dataset = openEuroc(realV101());
   // 29 120 rows, of which those up to the last frame go out; the others are said.
   std::size_t rows = 0, until_last = 0;
-  std::ifstream file(realFolder() + "/mav0/imu0/data.csv");
+  std::ifstream file(realV101() + "/mav0/imu0/data.csv");
   for (std::string line; std::getline(file, line);) {
     if (line[0] == '#') continue;
     ++rows;
@@ -80,7 +79,7 @@ TEST(readEuroc, RealSamplesAreAllThere) {
 
 TEST(readEuroc, RealGroundTruthIsTheFiles) {
   NEEDS_TEST_DATA();
-  const auto dataset = openEuroc(realFolder());
+  const auto dataset = openEuroc(realV101());
   const gslam::Trajectory& truth = dataset->info().ground_truth;
   ASSERT_EQ(truth.size(), 2895U);
   EXPECT_EQ(truth[0].stamp, 1403715273262142976);
@@ -88,7 +87,7 @@ TEST(readEuroc, RealGroundTruthIsTheFiles) {
   const SO3d first = SO3d::fromQuaternion(-0.824237, -0.106942, -0.551702, 0.069433);
   EXPECT_LT((truth[0].pose.rotation().inverse() * first).angle(), 1e-12);
   // The poses of its authors, w last, are in another world: what moves in a second agrees.
-  const auto rows = export_case::readTable(realFolder() + "/groundtruth_original_ASL_as_TUM.txt");
+  const auto rows = export_case::readTable(realV101() + "/groundtruth_original_ASL_as_TUM.txt");
   std::size_t compared = 0;
   double way = 0, apart = 0;
   for (std::size_t i = 0; i + 200 < rows.size(); i += 20) {
@@ -129,7 +128,7 @@ TEST(readEuroc, TheRealGyroscopeTurnsAsTheGroundTruth) {
   NEEDS_TEST_DATA();
   const TempFolder folder;
   fs::create_directories(folder / "mav0/cam0/data");
-  const std::string from = realFolder() + "/mav0/";
+  const std::string from = realV101() + "/mav0/";
   fs::copy(from + "imu0", folder / "mav0/imu0", fs::copy_options::recursive);
   fs::copy(from + "state_groundtruth_estimate0", folder / "mav0/state_groundtruth_estimate0",
            fs::copy_options::recursive);
@@ -159,27 +158,26 @@ TEST(readEuroc, TheRealGyroscopeTurnsAsTheGroundTruth) {
 
 TEST(readEuroc, FilesThatDoNotExistAreCounted) {
   NEEDS_TEST_DATA();
-  const auto dataset = openEuroc(realFolder(), Svar::object({{"list", "data_full.csv"}}));
+  const auto dataset = openEuroc(realV101(), Svar::object({{"list", "data_full.csv"}}));
   EXPECT_EQ(dataset->info().frame_count, 30U);
   const std::vector<std::string>& remarks = dataset->info().remarks;
   EXPECT_TRUE(says(remarks, "65 images that mav0/cam0/data_full.csv lists and that do not exist"));
   EXPECT_TRUE(says(remarks, "69 images that mav0/cam1/data_full.csv lists and that do not exist"));
-  EXPECT_TRUE(has(errorOf(gslam::eurocFactory(), realFolder(), Svar::object({{"list", "no.csv"}})),
+  EXPECT_TRUE(has(errorOf(gslam::eurocFactory(), realV101(), Svar::object({{"list", "no.csv"}})),
                   "mav0/cam0/no.csv"));
 }
 
 TEST(readEuroc, CamerasAreChosen) {
   NEEDS_TEST_DATA();
-  const auto right = openEuroc(realFolder(), Svar::object({{"cameras", "1"}}));
+  const auto right = openEuroc(realV101(), Svar::object({{"cameras", "1"}}));
   ASSERT_EQ(right->info().sensors.cameras.size(), 1U);
   EXPECT_EQ(right->info().sensors.cameras[0].name, "cam1");
-  const auto turned = openEuroc(realFolder(), Svar::object({{"cameras", "1,0"}}));
+  const auto turned = openEuroc(realV101(), Svar::object({{"cameras", "1,0"}}));
   EXPECT_EQ(turned->info().sensors.cameras[0].name, "cam1");
   EXPECT_EQ(turned->next()->images[1].name, "cam0");
   for (const char* wrong : {"2", "0,0", "a", "0,", "-1", "1000"}) {
-    EXPECT_TRUE(
-        has(errorOf(gslam::eurocFactory(), realFolder(), Svar::object({{"cameras", wrong}})),
-            "cameras is '" + std::string(wrong) + "', expected "))
+    EXPECT_TRUE(has(errorOf(gslam::eurocFactory(), realV101(), Svar::object({{"cameras", wrong}})),
+                    "cameras is '" + std::string(wrong) + "', expected "))
         << wrong;
   }
 }
@@ -187,8 +185,8 @@ TEST(readEuroc, CamerasAreChosen) {
 TEST(readEuroc, ACalibrationInPlaceOfItsOwn) {
   NEEDS_TEST_DATA();
   const auto dataset = openEuroc(
-      realFolder(), Svar::object({{"calibration", test_data::folder() +
-                                                      "calibrations/basalt/euroc_ds_calib.json"}}));
+      realV101(), Svar::object({{"calibration", test_data::folder() +
+                                                    "calibrations/basalt/euroc_ds_calib.json"}}));
   EXPECT_EQ(dataset->info().sensors.cameras[1].camera.modelName(), "double_sphere");
   EXPECT_NEAR(dataset->info().sensors.cameras[1].T_body_camera.translation()[1], 0.0412627204046637,
               1e-12);
@@ -196,13 +194,13 @@ TEST(readEuroc, ACalibrationInPlaceOfItsOwn) {
 
 TEST(readEuroc, TheLicenceIsThatOfEuroc) {
   NEEDS_TEST_DATA();
-  EXPECT_TRUE(has(openEuroc(realFolder())->info().licence, "EuRoC MAV, ASL, ETH Zurich"));
+  EXPECT_TRUE(has(openEuroc(realV101())->info().licence, "EuRoC MAV, ASL, ETH Zurich"));
 }
 
 // What export writes of a computed world, in a folder.
-class Exported {
+class ExportedEuroc {
  public:
-  Exported() {
+  ExportedEuroc() {
     gslam::SyntheticOptions options;
     options.frames = 6;
     options.width = 64;
@@ -231,7 +229,7 @@ class Exported {
 };
 
 TEST(readEuroc, ReadsWhatWasExported) {
-  const Exported exported;
+  const ExportedEuroc exported;
   const auto dataset = openEuroc(exported.path());
   const gslam::DatasetInfo &info = dataset->info(), &expected = exported.world().info();
   ASSERT_EQ(info.sensors.cameras.size(), 2U);
@@ -258,7 +256,7 @@ TEST(readEuroc, ReadsWhatWasExported) {
 }
 
 TEST(readEuroc, TheFolderMav0AndArchivesAreTheSame) {
-  const Exported exported;
+  const ExportedEuroc exported;
   zipFolder(exported.path(), exported.folder() / "plain.zip");
   zipFolder(exported.path(), exported.folder() / "seq2.zip", "V1_07/");
   zipFolder(exported.path("mav0"), exported.folder() / "mav.zip");
@@ -276,7 +274,7 @@ TEST(readEuroc, TheFolderMav0AndArchivesAreTheSame) {
 }
 
 TEST(readEuroc, OthersInTheSameLayoutHaveNotItsLicence) {
-  const Exported exported;
+  const ExportedEuroc exported;
   EXPECT_EQ(openEuroc(exported.path())->info().licence, "");
   fs::rename(exported.path(), exported.folder() / "MH_03_medium");
   EXPECT_TRUE(has(openEuroc(exported.folder().path())->info().licence, "EuRoC MAV"));
@@ -296,7 +294,7 @@ void expectPlaces(const gslam::SensorRig& rig, const SE3d& cam0, const SE3d& cam
 }
 
 TEST(readEuroc, ACalibrationWithoutPlacesLeavesCamerasWhereTheyAre) {
-  const Exported exported;
+  const ExportedEuroc exported;
   const gslam::SensorRig own = openEuroc(exported.path())->info().sensors;
   ASSERT_GT(own.cameras[0].T_body_camera.translation().norm() +
                 own.cameras[0].T_body_camera.rotation().angle(),
@@ -322,7 +320,7 @@ TEST(readEuroc, ACalibrationWithoutPlacesLeavesCamerasWhereTheyAre) {
 }
 
 TEST(readEuroc, ACalibrationOfAPairMovesTheSecond) {
-  const Exported exported;
+  const ExportedEuroc exported;
   const SE3d first = openEuroc(exported.path())->info().sensors.cameras[0].T_body_camera;
   const std::string file = exported.folder() / "pair.yaml";
   writeText(file,
@@ -342,7 +340,7 @@ TEST(readEuroc, ACalibrationOfAPairMovesTheSecond) {
 }
 
 TEST(readEuroc, WhatACalibrationReplacesMayBeWrong) {
-  const Exported exported;
+  const ExportedEuroc exported;
   const gslam::SensorRig own = openEuroc(exported.path())->info().sensors;
   const std::string file = exported.folder() / "mono.yaml";
   writeText(file, pinholeOf(50, true));
@@ -359,7 +357,7 @@ TEST(readEuroc, WhatACalibrationReplacesMayBeWrong) {
 }
 
 TEST(readEuroc, WhatIsMissingIsSaid) {
-  const Exported exported;
+  const ExportedEuroc exported;
   fs::remove(exported.path("mav0/cam1/sensor.yaml"));
   fs::remove_all(exported.path("mav0/imu0"));
   fs::remove_all(exported.path("mav0/state_groundtruth_estimate0"));
@@ -374,7 +372,7 @@ TEST(readEuroc, WhatIsMissingIsSaid) {
 }
 
 TEST(readEuroc, ImagesOfUnequalStamps) {
-  const Exported exported;
+  const ExportedEuroc exported;
   const std::string stamp = std::to_string(frameAt(exported.world(), 0)->stamp);
   const std::string late = std::to_string(frameAt(exported.world(), 0)->stamp + 2000000);
   exported.replace("mav0/cam1/data.csv", stamp + ",", late + ",");
@@ -389,7 +387,7 @@ TEST(readEuroc, ImagesOfUnequalStamps) {
 }
 
 TEST(readEuroc, TruthOfOtherSensors) {
-  const Exported exported;
+  const ExportedEuroc exported;
   const std::string first = std::to_string(frameAt(exported.world(), 0)->stamp);
   // The marker is 1 m in front of the body, turned by a quarter about z; T_BS takes it there.
   writeText(exported.path("mav0/vicon0/data.csv"), first + ",2,3,4,1,0,0,0\n");
@@ -418,7 +416,7 @@ TEST(readEuroc, TruthOfOtherSensors) {
 }
 
 TEST(readEuroc, WindowsLineEndsAndByteOrderMarks) {
-  const Exported exported;
+  const ExportedEuroc exported;
   const auto expected = openEuroc(exported.path());
   const auto frames = allFrames(*expected);
   for (const char* name : {"cam0/data.csv", "cam0/sensor.yaml", "imu0/data.csv", "imu0/sensor.yaml",
@@ -435,7 +433,7 @@ TEST(readEuroc, WindowsLineEndsAndByteOrderMarks) {
 }
 
 TEST(readEuroc, OrderAndTwinsAreSaid) {
-  const Exported exported;
+  const ExportedEuroc exported;
   std::string list = exported.text("mav0/cam0/data.csv");
   list += list.substr(list.find('\n') + 1);  // all a second time
   writeText(exported.path("mav0/cam0/data.csv"), list);
@@ -455,7 +453,7 @@ TEST(readEuroc, OrderAndTwinsAreSaid) {
 }
 
 TEST(readEuroc, InertialSamplesWithOneStampAreTakenOnce) {
-  const Exported exported;
+  const ExportedEuroc exported;
   std::size_t expected = 0, found = 0;
   for (const auto& frame : allFrames(*openEuroc(exported.path()))) expected += frame->imu.size();
   const std::string imu = exported.text("mav0/imu0/data.csv");
@@ -496,14 +494,14 @@ TEST(readEuroc, SaysWhichFileAndLineIsWrong) {
        "mav0/imu0/sensor.yaml: T_BS is missing"},
   };
   for (const auto& each : cases) {
-    const Exported exported;
+    const ExportedEuroc exported;
     writeText(exported.path(each.file), each.text);
     EXPECT_TRUE(has(exported.error(), each.message)) << exported.error() << "\n" << each.message;
   }
 }
 
 TEST(readEuroc, ImagesThatAreWrong) {
-  const Exported exported;
+  const ExportedEuroc exported;
   const std::string third = exported.path("mav0/cam1/data/") +
                             std::to_string(frameAt(exported.world(), 2)->stamp) + ".png";
   cutInHalf(third);

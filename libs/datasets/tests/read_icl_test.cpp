@@ -26,8 +26,8 @@ gslam::SyntheticOptions roomOptions() {
 }
 
 // A folder that exportDataset() wrote, and what it was made of.
-struct Exported {
-  Exported() : source(gslam::openSynthetic(roomOptions())) {
+struct ExportedIcl {
+  ExportedIcl() : source(gslam::openSynthetic(roomOptions())) {
     gslam::exportDataset(*source, folder / "icl", "icl");
   }
   std::string path() const { return folder / "icl"; }
@@ -62,7 +62,7 @@ void expectWarpsRight(Dataset& dataset, std::size_t i, std::size_t j) {
 }
 
 TEST(readIcl, ReadsWhatIsExported) {
-  const Exported icl;
+  const ExportedIcl icl;
   EXPECT_EQ(gslam::datasetFormatOf(icl.path()), "icl");
   const auto read = open(iclFactory(), icl.path());
   const gslam::DatasetInfo& info = read->info();
@@ -88,14 +88,14 @@ TEST(readIcl, ReadsWhatIsExported) {
 }
 
 TEST(readIcl, DepthAndPosesFitTogether) {
-  const Exported icl;
+  const ExportedIcl icl;
   const auto read = open(iclFactory(), icl.path());
   expectWarpsRight(*read, 0, 1);
   expectWarpsRight(*read, 10, 11);
 }
 
 TEST(readIcl, ArchiveReadsTheSame) {
-  const Exported icl;
+  const ExportedIcl icl;
   zipFolder(icl.path(), icl.folder / "icl.zip", "living_room_traj0_frei_png/");
   EXPECT_EQ(gslam::datasetFormatOf(icl.folder / "icl.zip"), "icl");
   const auto a = open(iclFactory(), icl.path()), b = open(iclFactory(), icl.folder / "icl.zip");

@@ -10,13 +10,13 @@ namespace {
 using namespace format_case;  // NOLINT(google-build-using-namespace)
 using gslam::strechaFactory;
 
-const char* const kCamera =
+const char* const kCameraFile =
     "20 0 15.5 \n0 21 11.5 \n0 0 1 \n0 0 0\n0 0 1 \n1 0 0 \n0 1 0 \n-7 -8 0.5 \n32 24\n";
 
 void writeFolder(const TempFolder& folder) {
   for (const char* name : {"0000.jpg", "0001.jpg", "0002.jpg"}) {
     writeImage(folder / ("images/" + std::string(name)), numbered(16, 12, name[3], CV_8UC3));
-    writeText(folder / ("gt_dense_cameras/" + std::string(name) + ".camera"), kCamera);
+    writeText(folder / ("gt_dense_cameras/" + std::string(name) + ".camera"), kCameraFile);
   }
 }
 
@@ -70,7 +70,7 @@ TEST(readStrecha, OtherPlacesAndArchives) {
   writeFolder(folder);
   for (const char* name : {"0000.png", "0001.png"}) {
     writeImage(flat / name, numbered(32, 24, name[3]));
-    writeText(flat / (std::string(name) + ".camera"), kCamera);
+    writeText(flat / (std::string(name) + ".camera"), kCameraFile);
   }
   EXPECT_EQ(gslam::datasetFormatOf(flat.path()), "strecha");
   const auto dataset = open(strechaFactory(), flat.path());
@@ -88,7 +88,7 @@ TEST(readStrecha, OtherPlacesAndArchives) {
 TEST(readStrecha, FilesThatAreWrong) {
   const TempFolder folder;
   writeFolder(folder);
-  const std::string file = folder / "gt_dense_cameras/0001.jpg.camera", whole = kCamera;
+  const std::string file = folder / "gt_dense_cameras/0001.jpg.camera", whole = kCameraFile;
   const auto errorWith = [&](const std::string& text) {
     writeText(file, text);
     return errorOf(strechaFactory(), folder.path());

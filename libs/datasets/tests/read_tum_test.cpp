@@ -42,7 +42,7 @@ class TumFolder {
   TempFolder folder;
 };
 
-std::string realFolder() {
+std::string realRpy() {
   return test_data::folder() + "sequences/tum_rgbd_freiburg1_rpy";
 }
 
@@ -79,8 +79,8 @@ std::vector<std::int64_t> stampsIn(const std::string& list) {
 
 TEST(readTum, RealRecording) {
   NEEDS_TEST_DATA();
-  EXPECT_EQ(gslam::datasetFormatOf(realFolder()), "tum");
-  const auto dataset = open(tumFactory(), realFolder());
+  EXPECT_EQ(gslam::datasetFormatOf(realRpy()), "tum");
+  const auto dataset = open(tumFactory(), realRpy());
   const gslam::DatasetInfo& info = dataset->info();
   EXPECT_EQ(info.licence, "CC BY 4.0");
   ASSERT_EQ(info.sensors.cameras.size(), 2U);
@@ -97,19 +97,18 @@ TEST(readTum, RealRecording) {
   const auto frames = allFrames(*dataset);
   EXPECT_EQ(frames[0]->stamp, 1305031234861873000);
   EXPECT_EQ(frames[0]->images[0].kind, ImageKind::bgr);
-  const cv::Mat colour = export_case::readImage(realFolder() + "/rgb/1305031234.893760.png");
+  const cv::Mat colour = export_case::readImage(realRpy() + "/rgb/1305031234.893760.png");
   EXPECT_TRUE(export_case::samePixels<std::uint8_t>(colour, frames[1]->images[0].image, {0, 1, 2}));
 }
 
 TEST(readTum, AssociatesAsManyAsCanBe) {
   NEEDS_TEST_DATA();
-  const auto rgb = stampsIn(realFolder() + "/rgb.txt"),
-             depth = stampsIn(realFolder() + "/depth.txt");
+  const auto rgb = stampsIn(realRpy() + "/rgb.txt"), depth = stampsIn(realRpy() + "/depth.txt");
   EXPECT_EQ(rgb.size(), 60U);
   EXPECT_EQ(depth.size(), 61U);
   for (const double tolerance : {0.02, 0.01, 0.009, 0.005}) {
     const auto nanoseconds = std::int64_t(std::llround(tolerance * 1e9));
-    const auto dataset = open(tumFactory(), realFolder(), Svar::object({{"tolerance", tolerance}}));
+    const auto dataset = open(tumFactory(), realRpy(), Svar::object({{"tolerance", tolerance}}));
     EXPECT_EQ(dataset->info().frame_count, mostPairs(rgb, depth, nanoseconds)) << tolerance;
     EXPECT_TRUE(says(dataset->info().remarks, "without one of each other camera"));
   }
@@ -117,7 +116,7 @@ TEST(readTum, AssociatesAsManyAsCanBe) {
 
 TEST(readTum, DepthAndPosesFitTogether) {
   NEEDS_TEST_DATA();
-  const auto dataset = open(tumFactory(), realFolder());
+  const auto dataset = open(tumFactory(), realRpy());
   const auto frames = allFrames(*dataset);
   for (const std::size_t i : {0U, 20U, 40U}) {
     const Frame &a = *frames[i], &b = *frames[i + 8];

@@ -10,17 +10,16 @@
 namespace {
 
 using namespace format_case;  // NOLINT(google-build-using-namespace)
-using export_case::frameAt;
 
-constexpr int kWidth = 48, kHeight = 32;
+constexpr int kMonoWidth = 48, kMonoHeight = 32;
 
-class Exported {
+class ExportedTumMono {
  public:
-  Exported() {
+  ExportedTumMono() {
     gslam::SyntheticOptions options;
     options.frames = 5;
-    options.width = kWidth;
-    options.height = kHeight;
+    options.width = kMonoWidth;
+    options.height = kMonoHeight;
     options.sensors = "mono";
     options.model = "fov";
     options.exposure_change = 0.4;
@@ -51,7 +50,7 @@ Svar photometric(const std::string& how) {
 }
 
 TEST(readTumMono, ReadsWhatWasExported) {
-  const Exported exported;
+  const ExportedTumMono exported;
   EXPECT_EQ(gslam::datasetFormatOf(exported.path()), "tummono");
   const auto dataset = openTumMono(exported.path());
   const gslam::DatasetInfo &info = dataset->info(), &expected = exported.world().info();
@@ -76,7 +75,7 @@ TEST(readTumMono, ReadsWhatWasExported) {
 }
 
 TEST(readTumMono, TheLicenceIsThatOfTumMonoOnly) {
-  const Exported exported;
+  const ExportedTumMono exported;
   EXPECT_TRUE(has(openTumMono(exported.path())->info().licence, "TUM monoVO"));
   for (const char* name : {"sequence_00", "sequence_51", "sequence_077", "mine"}) {
     fs::rename(exported.path(), exported.folder() / name);
@@ -108,10 +107,10 @@ TEST(readTumMono, ReadsLinesAsTheyArePublished) {
 }
 
 TEST(readTumMono, ImagesInAnArchiveOfTheirOwn) {
-  const Exported exported;
+  const ExportedTumMono exported;
   const auto expected = openTumMono(exported.path());
   for (const std::string inside : {"", "images/"}) {
-    const Exported other;
+    const ExportedTumMono other;
     zipFolder(other.path("images"), other.path("images.zip"), inside);
     fs::remove_all(other.path("images"));
     EXPECT_EQ(gslam::datasetFormatOf(other.path()), "tummono");
@@ -125,7 +124,7 @@ TEST(readTumMono, ImagesInAnArchiveOfTheirOwn) {
 }
 
 TEST(readTumMono, AnArchiveReadsTheSame) {
-  const Exported exported;
+  const ExportedTumMono exported;
   zipFolder(exported.path(), exported.folder() / "seq.zip", "sequence_07/");
   const auto folder = openTumMono(exported.path(), photometric("u8"));
   const auto archive = openTumMono(exported.folder() / "seq.zip", photometric("u8"));
@@ -134,7 +133,7 @@ TEST(readTumMono, AnArchiveReadsTheSame) {
 }
 
 TEST(readTumMono, GroundTruthAtTheEndsOnly) {
-  const Exported exported;
+  const ExportedTumMono exported;
   std::istringstream lines(exported.text("groundtruthSync.txt"));
   std::string text, line;
   for (int i = 0; std::getline(lines, line); ++i) {
@@ -153,22 +152,22 @@ TEST(readTumMono, GroundTruthAtTheEndsOnly) {
 // has it in another unit. The vignette falls to a half in the corner.
 class KnownCamera {
  public:
-  explicit KnownCamera(const Exported& exported) {
+  explicit KnownCamera(const ExportedTumMono& exported) {
     std::string response;
     for (int i = 0; i < 256; ++i) response += std::to_string(7 + 3 * i * i) + ".0 ";
     writeText(exported.path("pcalib.txt"), response + "\n");
-    cv::Mat vignette(kHeight, kWidth, CV_16UC1);
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
+    cv::Mat vignette(kMonoHeight, kMonoWidth, CV_16UC1);
+    for (int y = 0; y < kMonoHeight; ++y) {
+      for (int x = 0; x < kMonoWidth; ++x) {
         vignette.at<std::uint16_t>(y, x) =
             static_cast<std::uint16_t>(std::lround(40000 * attenuation(x, y)));
       }
     }
     writeImage(exported.path("vignette.png"), vignette);
     for (int i = 0; i < 5; ++i) {
-      cv::Mat image(kHeight, kWidth, CV_8UC1);
-      for (int y = 0; y < kHeight; ++y) {
-        for (int x = 0; x < kWidth; ++x) {
+      cv::Mat image(kMonoHeight, kMonoWidth, CV_8UC1);
+      for (int y = 0; y < kMonoHeight; ++y) {
+        for (int x = 0; x < kMonoWidth; ++x) {
           const double seen = attenuation(x, y) * radiance(x, y, i);
           image.at<std::uint8_t>(y, x) =
               static_cast<std::uint8_t>(std::lround(255 * std::sqrt(seen / 255)));
@@ -179,7 +178,7 @@ class KnownCamera {
   }
 
   static double attenuation(int x, int y) {
-    return 1 - 0.5 * double(x * x + y * y) / (kWidth * kWidth + kHeight * kHeight);
+    return 1 - 0.5 * double(x * x + y * y) / (kMonoWidth * kMonoWidth + kMonoHeight * kMonoHeight);
   }
   static double radiance(int x, int y, int frame) { return 20 + 3 * x + 2 * y + 5 * frame; }
   // What a grey level more or less makes of it.
@@ -189,7 +188,7 @@ class KnownCamera {
 };
 
 TEST(readTumMono, PhotometricCorrectionRecoversTheRadiance) {
-  const Exported exported;
+  const ExportedTumMono exported;
   const KnownCamera known(exported);
   const auto floats = openTumMono(exported.path(), photometric("f32"));
   const auto bytes = openTumMono(exported.path(), photometric("u8"));
@@ -198,8 +197,8 @@ TEST(readTumMono, PhotometricCorrectionRecoversTheRadiance) {
     const auto f32 = floats->next(), u8 = bytes->next();
     ASSERT_EQ(f32->images[0].image.type(), PixelType::f32);
     ASSERT_EQ(u8->images[0].image.type(), PixelType::u8);
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kMonoHeight; ++y) {
+      for (int x = 0; x < kMonoWidth; ++x) {
         const double expected = KnownCamera::radiance(x, y, i);
         const double error = KnownCamera::step(x, y, i) + 0.05;
         const double found = double(f32->images[0].image.at<float>(x, y));
@@ -215,8 +214,8 @@ TEST(readTumMono, PhotometricCorrectionRecoversTheRadiance) {
 }
 
 TEST(readTumMono, DarkVignetteIsSaid) {
-  const Exported exported;
-  cv::Mat vignette(kHeight, kWidth, CV_8UC1, cv::Scalar(200));
+  const ExportedTumMono exported;
+  cv::Mat vignette(kMonoHeight, kMonoWidth, CV_8UC1, cv::Scalar(200));
   vignette.at<std::uint8_t>(3, 5) = 0;
   writeImage(exported.path("vignette.png"), vignette);
   const auto dataset = openTumMono(exported.path(), photometric("f32"));
@@ -225,7 +224,7 @@ TEST(readTumMono, DarkVignetteIsSaid) {
 }
 
 TEST(readTumMono, PhotometricCalibrationThatIsWrong) {
-  const Exported exported;
+  const ExportedTumMono exported;
   EXPECT_TRUE(has(exported.error(photometric("u16")), "photometric is 'u16', expected none, u8"));
   std::string response = exported.text("pcalib.txt");
   writeText(exported.path("pcalib.txt"), "0 1 2\n");
@@ -240,18 +239,19 @@ TEST(readTumMono, PhotometricCalibrationThatIsWrong) {
   writeText(exported.path("pcalib.txt"), response);
   writeImage(exported.path("vignette.png"), numbered(8, 8, 1));
   EXPECT_TRUE(has(exported.error(photometric("f32")), "photometric calibration is for 8 x 8"));
-  writeImage(exported.path("vignette.png"), cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(0)));
+  writeImage(exported.path("vignette.png"),
+             cv::Mat(kMonoHeight, kMonoWidth, CV_8UC1, cv::Scalar(0)));
   EXPECT_TRUE(has(exported.error(photometric("f32")), "vignette.png: is black"));
-  writeImage(exported.path("vignette.png"), numbered(kWidth, kHeight, 1, CV_8UC3));
+  writeImage(exported.path("vignette.png"), numbered(kMonoWidth, kMonoHeight, 1, CV_8UC3));
   EXPECT_TRUE(has(exported.error(photometric("f32")), "expected grey of 8 or 16 bits"));
 }
 
 TEST(readTumMono, WhatIsMissingIsSaid) {
-  const Exported exported;
+  const ExportedTumMono exported;
   fs::remove(exported.path("camera.txt"));
   fs::remove(exported.path("groundtruthSync.txt"));
   fs::remove(exported.path("images/00003.png"));
-  writeImage(exported.path("images/other.png"), numbered(kWidth, kHeight, 1));
+  writeImage(exported.path("images/other.png"), numbered(kMonoWidth, kMonoHeight, 1));
   const auto dataset = openTumMono(exported.path());
   const std::vector<std::string>& remarks = dataset->info().remarks;
   EXPECT_EQ(dataset->info().frame_count, 4U);
@@ -279,12 +279,12 @@ TEST(readTumMono, SaysWhichFileAndLineIsWrong) {
       {"groundtruthSync.txt", "1 2 3\n", "groundtruthSync.txt:1:"},
   };
   for (const auto& each : cases) {
-    const Exported exported;
+    const ExportedTumMono exported;
     writeText(exported.path(each.file), each.text);
     const std::string error = exported.error();
     EXPECT_TRUE(has(error, each.message)) << "'" << error << "' has no '" << each.message << "'";
   }
-  const Exported exported;
+  const ExportedTumMono exported;
   fs::remove(exported.path("times.txt"));
   EXPECT_TRUE(has(exported.error(), "times.txt"));
   const TempFolder empty;
@@ -295,7 +295,7 @@ TEST(readTumMono, SaysWhichFileAndLineIsWrong) {
 }
 
 TEST(readTumMono, OrderAndTwinsAreSaid) {
-  const Exported exported;
+  const ExportedTumMono exported;
   writeText(exported.path("times.txt"),
             "00001 2.0 1\r\n00000 1.0 1\r\n00002 3.0\r\n00003 3.0 1\r\n00004 4.25 0\r\n");
   const auto dataset = openTumMono(exported.path());
@@ -310,7 +310,7 @@ TEST(readTumMono, OrderAndTwinsAreSaid) {
 }
 
 TEST(readTumMono, ACutImageIsAnError) {
-  const Exported exported;
+  const ExportedTumMono exported;
   cutInHalf(exported.path("images/00002.png"));
   const auto dataset = openTumMono(exported.path());
   dataset->next();

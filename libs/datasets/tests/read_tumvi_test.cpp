@@ -9,11 +9,10 @@
 namespace {
 
 using namespace format_case;  // NOLINT(google-build-using-namespace)
-using export_case::frameAt;
 
-class Exported {
+class ExportedTumVi {
  public:
-  Exported() {
+  ExportedTumVi() {
     gslam::SyntheticOptions options;
     options.frames = 5;
     options.width = 64;
@@ -47,7 +46,7 @@ SE3d placeByImu(const gslam::SensorRig& rig, std::size_t i) {
 }
 
 TEST(readTumVi, ReadsWhatWasExported) {
-  const Exported exported;
+  const ExportedTumVi exported;
   const auto dataset = openTumVi(exported.path());
   const gslam::DatasetInfo &info = dataset->info(), &expected = exported.world().info();
   EXPECT_EQ(info.format, "tumvi");
@@ -85,7 +84,7 @@ TEST(readTumVi, ReadsWhatWasExported) {
 }
 
 TEST(readTumVi, ImagesOfEightBits) {
-  const Exported exported;
+  const ExportedTumVi exported;
   for (const char* camera : {"cam0", "cam1"}) {
     const std::string folder = exported.path("mav0/" + std::string(camera) + "/data");
     for (const auto& entry : fs::directory_iterator(folder)) {
@@ -98,7 +97,7 @@ TEST(readTumVi, ImagesOfEightBits) {
 }
 
 TEST(readTumVi, AnArchiveReadsTheSame) {
-  const Exported exported;
+  const ExportedTumVi exported;
   zipFolder(exported.path(), exported.folder() / "seq.zip", "room1_512_16/");
   const auto folder = openTumVi(exported.path()),
              archive = openTumVi(exported.folder() / "seq.zip");
@@ -108,7 +107,7 @@ TEST(readTumVi, AnArchiveReadsTheSame) {
 }
 
 TEST(readTumVi, TheFolderMav0HasDsoBesideIt) {
-  const Exported exported;
+  const ExportedTumVi exported;
   const auto expected = openTumVi(exported.path());
   for (const std::string end : {"", "/", "/."}) {
     const auto found = openTumVi(exported.path("mav0") + end);
@@ -124,7 +123,7 @@ TEST(readTumVi, TheFolderMav0HasDsoBesideIt) {
 }
 
 TEST(readTumVi, TheLicenceIsThatOfTumViOnly) {
-  const Exported exported;
+  const ExportedTumVi exported;
   EXPECT_EQ(openTumVi(exported.path())->info().licence, "");
   fs::rename(exported.path(), exported.folder() / "dataset-room1_512_16");
   EXPECT_TRUE(
@@ -165,7 +164,7 @@ TEST(readTumVi, ReadsRowsAsTheyArePublished) {
 }
 
 TEST(readTumVi, ImagesWithoutExposuresAreSaid) {
-  const Exported exported;
+  const ExportedTumVi exported;
   const std::string times = exported.text("dso/cam0/times.txt");
   const std::string stamp = std::to_string(frameAt(exported.world(), 2)->stamp);
   const std::size_t line = times.find(stamp), end = times.find('\n', line) + 1;
@@ -183,7 +182,7 @@ TEST(readTumVi, ImagesWithoutExposuresAreSaid) {
 
 // Where no nanoseconds are those of an image, its seconds are, within a microsecond.
 TEST(readTumVi, ExposuresBySeconds) {
-  const Exported exported;
+  const ExportedTumVi exported;
   std::string times;
   for (std::size_t i = 0; i < 5; ++i) {
     const std::int64_t stamp = frameAt(exported.world(), i)->stamp;
@@ -203,7 +202,7 @@ TEST(readTumVi, ExposuresBySeconds) {
 
 // Eight numbers without a word are EquiDistant here; where the camera is, dso/ says.
 TEST(readTumVi, DsosBareCalibrationOfTheUser) {
-  const Exported exported;
+  const ExportedTumVi exported;
   const std::string file = exported.folder() / "camera.txt";
   writeText(file, "0.37 0.37 0.49 0.50 0.0034 0.0007 -0.002 0.0002\n64 64\ncrop\n64 64\n");
   const gslam::SensorRig own = openTumVi(exported.path())->info().sensors;
@@ -221,7 +220,7 @@ TEST(readTumVi, DsosBareCalibrationOfTheUser) {
 }
 
 TEST(readTumVi, ASensorsFileThatKalibrsReplaces) {
-  const Exported exported;
+  const ExportedTumVi exported;
   writeText(exported.path("mav0/cam0/sensor.yaml"), "%YAML:1.0\nsensor_type: camera\n");
   const auto dataset = openTumVi(exported.path());
   EXPECT_EQ(dataset->info().sensors.cameras[0].camera,
@@ -232,7 +231,7 @@ TEST(readTumVi, ASensorsFileThatKalibrsReplaces) {
 }
 
 TEST(readTumVi, WithoutDso) {
-  const Exported exported;
+  const ExportedTumVi exported;
   fs::remove_all(exported.path("dso"));
   for (const char* sensor : {"cam0", "cam1", "imu0"}) {
     fs::remove(exported.path("mav0/" + std::string(sensor) + "/sensor.yaml"));
@@ -250,7 +249,7 @@ TEST(readTumVi, WithoutDso) {
 
 TEST(readTumVi, ACalibrationOfTheUser) {
   NEEDS_TEST_DATA();
-  const Exported exported;
+  const ExportedTumVi exported;
   const std::string file =
       test_data::folder() + "calibrations/kalibr/tum_vi/kalibr_imucam_chain.yaml";
   // It is for 512 x 512; these are smaller, which is said.
@@ -285,7 +284,7 @@ TEST(readTumVi, SaysWhichFileAndLineIsWrong) {
       {"mav0/mocap0/data.csv", "1,2,3\n", "mav0/mocap0/data.csv:1:"},
       {"mav0/cam1/data.csv", "", "has no frame with an image of each camera"}};
   for (const auto& each : cases) {
-    const Exported exported;
+    const ExportedTumVi exported;
     writeText(exported.path(each.file), each.text);
     const std::string error = errorOf(gslam::tumViFactory(), exported.path());
     EXPECT_TRUE(has(error, each.message)) << "'" << error << "' has no '" << each.message << "'";
@@ -293,7 +292,7 @@ TEST(readTumVi, SaysWhichFileAndLineIsWrong) {
 }
 
 TEST(readTumVi, GroundTruthOfAPartIsSaid) {
-  const Exported exported;
+  const ExportedTumVi exported;
   std::string truth = exported.text("mav0/mocap0/data.csv");
   const std::string stamp = std::to_string(frameAt(exported.world(), 2)->stamp);
   writeText(exported.path("mav0/mocap0/data.csv"),

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "new_folder.h"
+#include "words.h"
 
 namespace reading_case {
 
@@ -92,9 +93,7 @@ inline bool isSame(const gslam::Image& image, const cv::Mat& pixels) {
 
 /// Whether one of the remarks has a text in it.
 inline bool hasRemark(const gslam::DatasetInfo& info, const std::string& text) {
-  return std::any_of(info.remarks.begin(), info.remarks.end(), [&](const std::string& remark) {
-    return remark.find(text) != std::string::npos;
-  });
+  return says(info.remarks, text);
 }
 
 /// What an action throws, which must be a gslam::Error; empty where it throws nothing.

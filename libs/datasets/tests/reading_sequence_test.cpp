@@ -39,7 +39,7 @@ gslam::CameraSensor namedCamera(const std::string& name) {
 }
 
 // Frames whose only pixel is their number.
-Sequence numbered(std::size_t count, const std::shared_ptr<Loads>& loads) {
+Sequence numberedSequence(std::size_t count, const std::shared_ptr<Loads>& loads) {
   Sequence sequence;
   sequence.info.name = "numbered";
   sequence.info.sensors.cameras.push_back(namedCamera("only"));
@@ -84,7 +84,7 @@ class ReadingThreads : public testing::TestWithParam<int> {};
 
 TEST_P(ReadingThreads, frames_come_in_order_whatever_happens) {
   const auto loads = std::make_shared<Loads>();
-  const auto dataset = deliver(numbered(200, loads), {GetParam(), 7});
+  const auto dataset = deliver(numberedSequence(200, loads), {GetParam(), 7});
   expectFrames(*dataset, 0, 200);
   EXPECT_EQ(dataset->next(), nullptr);
   EXPECT_EQ(dataset->next(), nullptr);
@@ -99,7 +99,7 @@ TEST_P(ReadingThreads, frames_come_in_order_whatever_happens) {
 
 TEST_P(ReadingThreads, it_may_go_at_any_time) {
   for (std::size_t taken = 0; taken < 20; ++taken) {
-    const auto dataset = deliver(numbered(200, std::make_shared<Loads>()), {GetParam(), 5});
+    const auto dataset = deliver(numberedSequence(200, std::make_shared<Loads>()), {GetParam(), 5});
     expectFrames(*dataset, 0, std::min<std::size_t>(taken, 12));
     if (taken % 3 == 0) dataset->seek(100);
   }
@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(counts, ReadingThreads, testing::Values(0, 1, 2, 5));
 
 TEST(reading_sequence, loads_no_more_ahead_than_it_may) {
   const auto loads = std::make_shared<Loads>();
-  const auto dataset = deliver(numbered(100, loads), {3, 6});
+  const auto dataset = deliver(numberedSequence(100, loads), {3, 6});
   for (int i = 0; i < 10; ++i) (void)dataset->next();
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
   const std::lock_guard<std::mutex> lock(loads->mutex);
@@ -118,7 +118,7 @@ TEST(reading_sequence, loads_no_more_ahead_than_it_may) {
 
 TEST(reading_sequence, opening_loads_nothing_and_a_jump_little) {
   const auto loads = std::make_shared<Loads>();
-  const auto dataset = deliver(numbered(100, loads), {2, 50});
+  const auto dataset = deliver(numberedSequence(100, loads), {2, 50});
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   EXPECT_TRUE(loads->frames.empty());
   for (const std::size_t place : {80U, 20U, 60U}) {
@@ -132,7 +132,7 @@ TEST(reading_sequence, opening_loads_nothing_and_a_jump_little) {
 
 TEST(reading_sequence, one_thread_loads_in_order_where_that_is_wanted) {
   const auto loads = std::make_shared<Loads>();
-  Sequence sequence = numbered(12, loads);
+  Sequence sequence = numberedSequence(12, loads);
   sequence.in_order = true;
   const auto dataset = deliver(std::move(sequence), {4, 6});
   expectFrames(*dataset, 0, 12);
@@ -141,7 +141,7 @@ TEST(reading_sequence, one_thread_loads_in_order_where_that_is_wanted) {
 }
 
 TEST(reading_sequence, samples_go_out_once_with_the_frame_after_them) {
-  Sequence sequence = numbered(5, std::make_shared<Loads>());
+  Sequence sequence = numberedSequence(5, std::make_shared<Loads>());
   for (std::int64_t stamp = -20; stamp <= 5 * kStep; stamp += 10000000) {
     ImuSample sample{};
     sample.stamp = stamp;
@@ -173,7 +173,7 @@ TEST(reading_sequence, samples_go_out_once_with_the_frame_after_them) {
 }
 
 TEST(reading_sequence, samples_of_a_damaged_frame_go_out_with_the_next) {
-  Sequence sequence = numbered(20, std::make_shared<Loads>());
+  Sequence sequence = numberedSequence(20, std::make_shared<Loads>());
   for (std::int64_t stamp = 0; stamp < 20 * kStep; stamp += 10000000) {
     ImuSample sample{};
     sample.stamp = stamp;
@@ -198,7 +198,7 @@ TEST(reading_sequence, samples_of_a_damaged_frame_go_out_with_the_next) {
 }
 
 TEST(reading_sequence, what_is_no_error_of_ours_reaches_the_caller_as_well) {
-  Sequence sequence = numbered(2, std::make_shared<Loads>());
+  Sequence sequence = numberedSequence(2, std::make_shared<Loads>());
   sequence.load = [](std::size_t frame, std::size_t) {
     if (frame == 0) throw std::bad_alloc();
     return Image(1, 1, PixelType::u8);
@@ -209,7 +209,7 @@ TEST(reading_sequence, what_is_no_error_of_ours_reaches_the_caller_as_well) {
 }
 
 TEST(reading_sequence, gaps_and_ground_truth_of_another_time_are_said) {
-  Sequence sequence = numbered(12, std::make_shared<Loads>());
+  Sequence sequence = numberedSequence(12, std::make_shared<Loads>());
   for (std::size_t i = 6; i < 12; ++i) sequence.stamps[i] += 10 * kStep;
   sequence.info.ground_truth.add(2 * kStep, gslam::SE3d());
   sequence.info.ground_truth.add(7 * kStep, gslam::SE3d());
@@ -223,11 +223,11 @@ TEST(reading_sequence, gaps_and_ground_truth_of_another_time_are_said) {
 }
 
 TEST(reading_sequence, refuses_none_and_disorder) {
-  EXPECT_THROW(deliver(numbered(0, std::make_shared<Loads>()), {}), gslam::Error);
-  Sequence twins = numbered(3, std::make_shared<Loads>());
+  EXPECT_THROW(deliver(numberedSequence(0, std::make_shared<Loads>()), {}), gslam::Error);
+  Sequence twins = numberedSequence(3, std::make_shared<Loads>());
   twins.stamps[1] = twins.stamps[2];
   EXPECT_THROW(deliver(std::move(twins), {}), gslam::Error);
-  Sequence ages = numbered(2, std::make_shared<Loads>());
+  Sequence ages = numberedSequence(2, std::make_shared<Loads>());
   ages.stamps = {-9000000000000000000, 9000000000000000000};
   EXPECT_THROW(deliver(std::move(ages), {}), gslam::Error);
   EXPECT_THROW(prefetchOf(gslam::Svar::object({{"threads", -1}})), gslam::ArgumentError);

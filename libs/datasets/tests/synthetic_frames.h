@@ -7,9 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <string>
 #include <vector>
+
+#include "frame_at.h"
 
 namespace synthetic_frames {
 
@@ -33,11 +34,6 @@ inline SyntheticOptions clean(const std::string& world = "room") {
   options.blur = false;
   options.depth_float = true;
   return options;
-}
-
-inline std::shared_ptr<const Frame> frameAt(Dataset& dataset, std::size_t index) {
-  dataset.seek(index);
-  return dataset.next();
 }
 
 /// Camera axes (right, down, forward) for a body whose x is forward.

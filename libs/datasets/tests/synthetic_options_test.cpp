@@ -6,23 +6,13 @@
 #include <limits>
 
 #include "synthetic_frames.h"
+#include "thrown.h"
 
 namespace {
 
 using namespace synthetic_frames;
 using gslam::FrameRanges;
 using testing::HasSubstr;
-
-template <class F>
-std::string messageOf(const F& f) {
-  try {
-    f();
-  } catch (const gslam::Error& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return "";
-}
 
 TEST(SyntheticOptions, AreReadFromTheName) {
   const SyntheticOptions o = gslam::syntheticOptions(
@@ -52,7 +42,7 @@ TEST(SyntheticOptions, OfTheNameGoBeforeParameters) {
 
 TEST(SyntheticOptions, AreCheckedWhenTheyAreRead) {
   const auto message = [](const std::string& name) {
-    return messageOf([&] { gslam::syntheticOptions(name); });
+    return thrownBy([&] { gslam::syntheticOptions(name); });
   };
   EXPECT_THAT(message("synthetic://room?fraems=3"), HasSubstr("did you mean frames?"));
   EXPECT_THAT(message("synthetic://room?seed"), HasSubstr("name=value"));
@@ -64,7 +54,7 @@ TEST(SyntheticOptions, AreCheckedWhenTheyAreRead) {
   EXPECT_THAT(message("synthetic://room?dropped=a"), HasSubstr("100-119"));
   EXPECT_THAT(message("synthetic://room?lens=1,a"), HasSubstr("lens"));
   EXPECT_THAT(message("/data/room"), HasSubstr("synthetic://WORLD"));
-  EXPECT_THAT(messageOf([] {
+  EXPECT_THAT(thrownBy([] {
                 gslam::syntheticOptions("synthetic", gslam::Svar::object({{"sede", 1}}));
               }),
               HasSubstr("did you mean seed?"));
@@ -74,7 +64,7 @@ template <class Value>
 std::string refused(Value SyntheticOptions::*option, Value value) {
   SyntheticOptions options;
   options.*option = value;
-  return messageOf([&] { gslam::openSynthetic(options); });
+  return thrownBy([&] { gslam::openSynthetic(options); });
 }
 
 TEST(SyntheticOptions, OutOfRangeAreRefusedByName) {

@@ -24,7 +24,7 @@ using gslam::Svar;
 constexpr Coding kCoding = Coding::little_cdr;
 constexpr std::int64_t kMs = 1000000;
 constexpr std::int64_t kStart = 1600000000000000000;
-constexpr int kWidth = 4, kHeight = 3, kFrames = 6;
+constexpr int kFrameWidth = 4, kFrameHeight = 3, kFrames = 6;
 
 // When it was measured; it was received 3 ms later.
 std::int64_t stampOf(int i) {
@@ -32,7 +32,7 @@ std::int64_t stampOf(int i) {
 }
 
 std::vector<std::uint8_t> pixelsOf(int camera, int i) {
-  return noise(std::size_t(kWidth * kHeight * (camera == 0 ? 1 : 3)),
+  return noise(std::size_t(kFrameWidth * kFrameHeight * (camera == 0 ? 1 : 3)),
                std::uint32_t(100 * camera + i));
 }
 
@@ -40,8 +40,8 @@ Recorded imageOf(int camera, int i, std::int64_t later = 0) {
   const bool is_left = camera == 0;
   const std::int64_t stamp = stampOf(i) + later;
   return {is_left ? "/left/image_raw" : "/right/image_raw", "sensor_msgs/Image", stamp + 3 * kMs,
-          imageBytes(kCoding, stamp, is_left ? "left" : "right", kWidth, kHeight,
-                     is_left ? "mono8" : "rgb8", kWidth * (is_left ? 1 : 3), false,
+          imageBytes(kCoding, stamp, is_left ? "left" : "right", kFrameWidth, kFrameHeight,
+                     is_left ? "mono8" : "rgb8", kFrameWidth * (is_left ? 1 : 3), false,
                      pixelsOf(camera, i))};
 }
 
@@ -251,8 +251,8 @@ TEST(ros_dataset, the_right_camera_of_a_rectified_pair_is_where_p_says) {
     InfoFields info;
     info.p = {100, 0, 1.5, p3, 0, 100, 1, 0, 0, 0, 1, 0};
     return std::vector<Recorded>{{"/" + name + "/image_rect", "sensor_msgs/Image", kStart,
-                                  imageBytes(kCoding, kStart, frame, kWidth, kHeight, "mono8",
-                                             kWidth, false, pixelsOf(0, 1))},
+                                  imageBytes(kCoding, kStart, frame, kFrameWidth, kFrameHeight,
+                                             "mono8", kFrameWidth, false, pixelsOf(0, 1))},
                                  {"/" + name + "/camera_info", "sensor_msgs/CameraInfo", kStart,
                                   infoBytes(kCoding, kStart, frame, info)}};
   };
@@ -423,8 +423,8 @@ TEST(ros_dataset, stamps_that_are_zero_twice_or_out_of_order) {
   std::vector<Recorded> messages = {imageOf(0, 2), imageOf(0, 1), imageOf(0, 2), imageOf(0, 3)};
   messages[0].received = messages[1].received - 1;
   messages.push_back(messages[0]);
-  messages.back().bytes =
-      imageBytes(kCoding, 0, "left", kWidth, kHeight, "mono8", kWidth, false, pixelsOf(0, 9));
+  messages.back().bytes = imageBytes(kCoding, 0, "left", kFrameWidth, kFrameHeight, "mono8",
+                                     kFrameWidth, false, pixelsOf(0, 9));
   messages.back().received = stampOf(9);
   const auto dataset = open(writeMcap("order.mcap", messages));
   EXPECT_EQ(dataset->info().frame_count, 4U);
@@ -494,9 +494,10 @@ TEST(ros_dataset, a_calibration_of_another_size_is_an_error_unless_it_is_not_wan
 
 TEST(ros_dataset, depth_and_compressed_topics) {
   const auto depth = [&](const char* topic, const char* encoding, int bytes) {
-    return Recorded{topic, "sensor_msgs/Image", kStart,
-                    imageBytes(kCoding, kStart, "d", kWidth, kHeight, encoding, kWidth * bytes,
-                               false, noise(std::size_t(kWidth * kHeight * bytes), 1))};
+    return Recorded{
+        topic, "sensor_msgs/Image", kStart,
+        imageBytes(kCoding, kStart, "d", kFrameWidth, kFrameHeight, encoding, kFrameWidth * bytes,
+                   false, noise(std::size_t(kFrameWidth * kFrameHeight * bytes), 1))};
   };
   Recorded compressed = {"/cam/image_raw/compressed", "sensor_msgs/CompressedImage", kStart,
                          compressedBytes(kCoding, kStart, "jpeg", {1, 2, 3})};

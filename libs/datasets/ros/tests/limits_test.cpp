@@ -17,7 +17,6 @@
 
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
 using gslam::ros::openMemory;
 using mcap_writer::Out;
 
@@ -33,11 +32,11 @@ class Clock {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-std::unique_ptr<gslam::ros::Storage> openMcap(const Bytes& bytes) {
+std::unique_ptr<gslam::ros::Storage> openMcap(const RawBytes& bytes) {
   return gslam::ros::openMcap(openMemory(bytes, "small.mcap"));
 }
 
-Bytes endOfMcap() {
+RawBytes endOfMcap() {
   Out out;
   out.raw(mcap_writer::record(0x02, Out().u64(0).u64(0).u32(0).bytes)).raw(mcap_writer::magic());
   return out.bytes;
@@ -47,16 +46,16 @@ Bytes endOfMcap() {
 
 constexpr std::size_t kPage = 1024;
 
-void put(Bytes& page, std::size_t at, std::uint32_t value, int size) {
+void put(RawBytes& page, std::size_t at, std::uint32_t value, int size) {
   for (int i = 0; i < size; ++i) {
     page[at + std::size_t(i)] = static_cast<std::uint8_t>(value >> (8 * (size - 1 - i)));
   }
 }
 
 // An interior page of a table that names one page many times. (SQLite's file format, 1.6.)
-Bytes pageOf(std::uint32_t child) {
+RawBytes pageOf(std::uint32_t child) {
   constexpr std::uint32_t kCells = 140;
-  Bytes page(kPage);
+  RawBytes page(kPage);
   std::size_t at = kPage;
   for (std::uint32_t i = 0; i < kCells; ++i) {
     at -= 5;
@@ -89,18 +88,18 @@ TEST(limits_db3, a_table_whose_pages_are_named_many_times_is_refused) {
     const std::string path = folderOfTests() + "circle.db3";
     db3_writer::write(path, {{"/a", "a/B", 5, {1, 2, 3}}});
     const std::uint32_t root = table == "sqlite_master" ? 1 : rootOf(path, table);
-    Bytes file = readFile(path);
+    RawBytes file = readFile(path);
     const std::size_t at = (root - 1) * kPage;
     std::uint32_t last = std::uint32_t(file.size() / kPage);
-    const auto append = [&](const Bytes& page) {
+    const auto append = [&](const RawBytes& page) {
       file.insert(file.end(), page.begin(), page.end());
       ++last;
     };
     // 140^5 rows. Page 1 has the head of the file before its own, which makes it no good copy.
-    append(Bytes(file.begin() + std::ptrdiff_t(at), file.begin() + std::ptrdiff_t(at + kPage)));
+    append(RawBytes(file.begin() + std::ptrdiff_t(at), file.begin() + std::ptrdiff_t(at + kPage)));
     for (int level = 0; level < 4; ++level) append(pageOf(last));
     const std::size_t head = root == 1 ? 100 : 0;
-    const Bytes top = pageOf(last);
+    const RawBytes top = pageOf(last);
     std::copy(top.begin(), top.end() - std::ptrdiff_t(head),
               file.begin() + std::ptrdiff_t(at + head));
     put(file, 28, last, 4);
@@ -173,7 +172,7 @@ TEST(limits_db3, a_database_whose_journal_is_needed_is_refused) {
   EXPECT_TRUE(has(error, "was not closed: what it held before is in " + path + "-journal"))
       << error;
   // What SQLite leaves where it does not remove journals: the head is zeros.
-  Bytes journal = readFile(path + "-journal");
+  RawBytes journal = readFile(path + "-journal");
   std::fill(journal.begin(), journal.begin() + 28, std::uint8_t(0));
   writeFile(path + "-journal", journal);
   EXPECT_FALSE(has(errorOf([&] { gslam::ros::openDb3(path); }), "-journal"));
@@ -182,7 +181,7 @@ TEST(limits_db3, a_database_whose_journal_is_needed_is_refused) {
 std::string listOf(const std::string& folder) {
   const std::string list = folderOfTests() + "list.txt";
   EXPECT_EQ(std::system(("ls -la --time-style=full-iso '" + folder + "' > " + list).c_str()), 0);
-  const Bytes bytes = readFile(list);
+  const RawBytes bytes = readFile(list);
   return std::string(bytes.begin(), bytes.end());
 }
 
@@ -262,7 +261,7 @@ std::vector<Recorded> tenMessages() {
   return messages;
 }
 
-std::size_t find(const Bytes& in, const Bytes& what) {
+std::size_t find(const RawBytes& in, const RawBytes& what) {
   const auto found = std::search(in.begin(), in.end(), what.begin(), what.end());
   EXPECT_NE(found, in.end());
   return std::size_t(found - in.begin());
@@ -272,7 +271,7 @@ TEST(limits_mcap, a_message_that_the_index_names_twice_comes_once) {
   mcap_writer::Shape shape;
   shape.has_crc = false;
   shape.chunk_messages = 20;
-  Bytes file = mcap_writer::write(tenMessages(), shape);
+  RawBytes file = mcap_writer::write(tenMessages(), shape);
   // The offset of the second message becomes that of the first one.
   const std::size_t entry = find(file, Out().u32(160).u64(100).bytes) + 4;
   std::copy_n(file.begin() + std::ptrdiff_t(entry), 16, file.begin() + std::ptrdiff_t(entry + 16));
@@ -288,7 +287,7 @@ TEST(limits_mcap, a_message_of_another_topic_than_the_index_says_is_an_error) {
   shape.chunk_messages = 20;
   std::vector<Recorded> messages = tenMessages();
   for (std::size_t i = 1; i < 10; i += 2) messages[i].topic = "/b";
-  Bytes file = mcap_writer::write(messages, shape);
+  RawBytes file = mcap_writer::write(messages, shape);
   // The index of channel 2 becomes one of channel 1.
   file[find(file, Out().u16(2).u32(80).u64(101).bytes)] = 1;
   const auto storage = openMcap(file);
@@ -306,11 +305,11 @@ TEST(limits_mcap, one_changed_byte_of_the_summary_loses_no_message) {
     mcap_writer::Shape shape;
     shape.has_crc = has_crc;
     shape.chunk_messages = 4;
-    const Bytes file = mcap_writer::write(tenMessages(), shape);
+    const RawBytes file = mcap_writer::write(tenMessages(), shape);
     const std::size_t summary = find(file, Out().u8(0x0F).u64(4).bytes) + 13;
     for (std::size_t at = summary; at < file.size(); ++at) {
       for (const int bits : {0x01, 0x40, 0xFF}) {
-        Bytes changed = file;
+        RawBytes changed = file;
         changed[at] ^= static_cast<std::uint8_t>(bits);
         const auto storage = openMcap(changed);
         ASSERT_EQ(storage->messages.size(), 10U) << at;
@@ -344,7 +343,7 @@ TEST(limits_mcap, messages_of_plain_chunks_are_read_in_place) {
     mcap_writer::Shape shape;
     shape.has_crc = has_crc;
     shape.chunk_messages = 20;
-    Bytes file = mcap_writer::write(tenMessages(), shape);
+    RawBytes file = mcap_writer::write(tenMessages(), shape);
     file[find(file, tenMessages()[9].bytes)] ^= 1U;
     const auto storage = openMcap(file);
     const std::string error =
@@ -377,7 +376,7 @@ TEST(limits_mcap, stamps_beyond_2262_and_channels_that_are_not_described) {
 
 // --- bags ----------------------------------------------------------------------------------------
 
-std::unique_ptr<gslam::ros::Storage> openBag(const Bytes& bytes) {
+std::unique_ptr<gslam::ros::Storage> openBag(const RawBytes& bytes) {
   return gslam::ros::openBag(openMemory(bytes, "small.bag"));
 }
 
@@ -386,7 +385,7 @@ TEST(limits_bag, one_changed_byte_of_the_index_loses_no_message) {
   ASSERT_TRUE(openBag(bag.bytes)->remarks.empty());
   for (std::size_t at = bag.index; at < bag.bytes.size(); ++at) {
     for (const int bits : {0x01, 0x40, 0xFF}) {
-      Bytes changed = bag.bytes;
+      RawBytes changed = bag.bytes;
       changed[at] ^= static_cast<std::uint8_t>(bits);
       const auto storage = openBag(changed);
       ASSERT_EQ(storage->messages.size(), 10U) << at;
@@ -406,12 +405,12 @@ TEST(limits_bag, a_message_that_the_index_names_twice_comes_once) {
 TEST(limits_bag, messages_of_a_chunk_that_was_not_closed_are_read) {
   bag_writer::Shape shape;
   shape.is_chunk_closed = false;
-  Bytes bytes = bag_writer::write(shape).bytes;
+  RawBytes bytes = bag_writer::write(shape).bytes;
   bytes.resize(bytes.size() - 5);  // within the last message
   const auto storage = openBag(bytes);
   ASSERT_EQ(storage->messages.size(), 9U);
   for (std::size_t i = 0; i < 9; ++i) {
-    EXPECT_EQ(storage->read(storage->messages[i]), Bytes(30, std::uint8_t(i)));
+    EXPECT_EQ(storage->read(storage->messages[i]), RawBytes(30, std::uint8_t(i)));
     EXPECT_EQ(storage->messages[i].stamp, std::int64_t(10 + i) * 1000000000);
   }
   EXPECT_TRUE(hasAny(storage->remarks, "it ends early: small.bag: at byte"));
@@ -422,16 +421,16 @@ TEST(limits_bag, encrypted_ones_and_headers_that_are_too_long_are_refused) {
   shape.is_encrypted = true;
   EXPECT_EQ(errorOf([&] { openBag(bag_writer::write(shape).bytes); }),
             "small.bag: is encrypted, which cannot be read");
-  Bytes bytes = bag_writer::text("#ROSBAG V2.0\n");
-  const Bytes record = Out().u32(3U << 20).raw(Bytes(4U << 20)).bytes;
+  RawBytes bytes = bag_writer::text("#ROSBAG V2.0\n");
+  const RawBytes record = Out().u32(3U << 20).raw(RawBytes(4U << 20)).bytes;
   bytes.insert(bytes.end(), record.begin(), record.end());
   EXPECT_TRUE(hasAny(openBag(bytes)->remarks, "the header of a record should have 3145728 bytes"));
 }
 
 TEST(limits_bag, a_message_of_another_connection_than_the_index_says_is_an_error) {
-  Bytes bytes = bag_writer::write().bytes;
+  RawBytes bytes = bag_writer::write().bytes;
   // Connection 1 of the first message, in its own record.
-  const Bytes first = bag_writer::fields({{"op", {2}}, {"conn", bag_writer::u32(0)}});
+  const RawBytes first = bag_writer::fields({{"op", {2}}, {"conn", bag_writer::u32(0)}});
   bytes[find(bytes, first) + first.size() - 4] = 1;
   const auto storage = openBag(bytes);
   ASSERT_EQ(storage->messages.size(), 10U);
@@ -448,7 +447,7 @@ TEST(limits_cache, blocks_are_kept_up_to_a_number_of_bytes) {
   const auto get = [&](std::uint64_t offset, std::size_t size) {
     const auto unpack = [&] {
       ++unpacked;
-      return Bytes(size, std::uint8_t(offset));
+      return RawBytes(size, std::uint8_t(offset));
     };
     EXPECT_EQ(cache.get(offset, unpack)->size(), size);
   };
@@ -465,7 +464,7 @@ TEST(limits_cache, blocks_are_kept_up_to_a_number_of_bytes) {
   get(4, 5000);
   EXPECT_EQ(unpacked, 4);
   EXPECT_EQ(cache.size(), 5000U);
-  EXPECT_THROW(cache.get(5, []() -> Bytes { throw gslam::Error("damaged"); }), gslam::Error);
+  EXPECT_THROW(cache.get(5, []() -> RawBytes { throw gslam::Error("damaged"); }), gslam::Error);
   for (std::uint64_t i = 10; i < 30; ++i) get(i, 10);
   EXPECT_EQ(cache.size(), 60U);
 }

@@ -21,8 +21,8 @@
 namespace {
 
 using gslam::Svar;
-using namespace gslam::ros::mcap;  // NOLINT(google-build-using-namespace): what is tested
 using mcap_writer::Out;
+namespace mcap = gslam::ros::mcap;
 
 std::uint64_t numberOf(const Svar& value) {
   return std::stoull(value.as<std::string>());
@@ -184,8 +184,8 @@ class Comparison {
  public:
   explicit Comparison(const std::vector<Expected>& expected) : expected_(expected) {}
 
-  void take(const Record& record) {
-    if (std::holds_alternative<MessageIndex>(record)) return;  // the JSON has none
+  void take(const mcap::Record& record) {
+    if (std::holds_alternative<mcap::MessageIndex>(record)) return;  // the JSON has none
     ASSERT_LT(next_, expected_.size());
     const Expected& wanted = expected_[next_++];
     std::visit([&](const auto& one) { compare(one, wanted); }, record);
@@ -193,25 +193,25 @@ class Comparison {
   std::size_t count() const { return next_; }
 
  private:
-  static void compare(const Header& a, const Expected& b) {
+  static void compare(const mcap::Header& a, const Expected& b) {
     ASSERT_EQ(b.type, "Header");
     EXPECT_EQ(a.profile, b.text("profile"));
     EXPECT_EQ(a.library, b.text("library"));
   }
-  static void compare(const Footer& a, const Expected& b) {
+  static void compare(const mcap::Footer& a, const Expected& b) {
     ASSERT_EQ(b.type, "Footer");
     EXPECT_EQ(a.summary_start, b.number("summary_start"));
     EXPECT_EQ(a.summary_offset_start, b.number("summary_offset_start"));
     EXPECT_EQ(a.summary_crc, b.number("summary_crc"));
   }
-  static void compare(const Schema& a, const Expected& b) {
+  static void compare(const mcap::Schema& a, const Expected& b) {
     ASSERT_EQ(b.type, "Schema");
     EXPECT_EQ(a.id, b.number("id"));
     EXPECT_EQ(a.name, b.text("name"));
     EXPECT_EQ(a.encoding, b.text("encoding"));
     EXPECT_EQ(std::vector<std::uint8_t>(a.data.begin(), a.data.end()), b.bytes("data"));
   }
-  static void compare(const Channel& a, const Expected& b) {
+  static void compare(const mcap::Channel& a, const Expected& b) {
     ASSERT_EQ(b.type, "Channel");
     EXPECT_EQ(a.id, b.number("id"));
     EXPECT_EQ(a.schema_id, b.number("schema_id"));
@@ -223,7 +223,7 @@ class Comparison {
     }
     EXPECT_EQ(a.metadata, metadata);
   }
-  static void compare(const Message& a, const Expected& b) {
+  static void compare(const mcap::Message& a, const Expected& b) {
     ASSERT_EQ(b.type, "Message");
     EXPECT_EQ(a.channel_id, b.number("channel_id"));
     EXPECT_EQ(a.sequence, b.number("sequence"));
@@ -231,7 +231,7 @@ class Comparison {
     EXPECT_EQ(a.publish_time, b.number("publish_time"));
     EXPECT_EQ(std::vector<std::uint8_t>(a.data.begin(), a.data.end()), b.bytes("data"));
   }
-  static void compare(const ChunkIndex& a, const Expected& b) {
+  static void compare(const mcap::ChunkIndex& a, const Expected& b) {
     ASSERT_EQ(b.type, "ChunkIndex");
     EXPECT_EQ(a.message_start_time, b.number("message_start_time"));
     EXPECT_EQ(a.message_end_time, b.number("message_end_time"));
@@ -243,7 +243,7 @@ class Comparison {
     EXPECT_EQ(a.compressed_size, b.number("compressed_size"));
     EXPECT_EQ(a.uncompressed_size, b.number("uncompressed_size"));
   }
-  static void compare(const Statistics& a, const Expected& b) {
+  static void compare(const mcap::Statistics& a, const Expected& b) {
     ASSERT_EQ(b.type, "Statistics");
     EXPECT_EQ(a.message_count, b.number("message_count"));
     EXPECT_EQ(a.schema_count, b.number("schema_count"));
@@ -255,13 +255,13 @@ class Comparison {
     EXPECT_EQ(a.message_end_time, b.number("message_end_time"));
     EXPECT_EQ(a.channel_message_counts, mapOf(b, "channel_message_counts"));
   }
-  static void compare(const SummaryOffset& a, const Expected& b) {
+  static void compare(const mcap::SummaryOffset& a, const Expected& b) {
     ASSERT_EQ(b.type, "SummaryOffset");
     EXPECT_EQ(a.group_opcode, b.number("group_opcode"));
     EXPECT_EQ(a.group_start, b.number("group_start"));
     EXPECT_EQ(a.group_length, b.number("group_length"));
   }
-  static void compare(const DataEnd& a, const Expected& b) {
+  static void compare(const mcap::DataEnd& a, const Expected& b) {
     ASSERT_EQ(b.type, "DataEnd");
     EXPECT_EQ(a.data_section_crc, b.number("data_section_crc"));
   }
@@ -323,8 +323,9 @@ void check(const std::string& path) {
   const auto bytes = trueFile(path.substr(0, path.size() - 4) + "mcap", one);
   Comparison comparison(one.records);
   const auto file = gslam::ros::openMemory(bytes, path);
-  const ScanResult result =
-      scan(*file, [&](const Record& record, const RecordPlace&) { comparison.take(record); });
+  const mcap::ScanResult result = mcap::scan(
+      *file,
+      [&](const mcap::Record& record, const mcap::RecordPlace&) { comparison.take(record); });
   EXPECT_EQ(comparison.count(), one.records.size());
   EXPECT_EQ(result.early_end, "");
   EXPECT_TRUE(result.damaged.empty());

@@ -19,8 +19,6 @@ using namespace gslam::ros;  // NOLINT(google-build-using-namespace): what is te
 using gslam::ImageKind;
 using gslam::PixelType;
 
-using RawBytes = std::vector<std::uint8_t>;
-
 const Coding kCodings[] = {Coding::ros1, Coding::little_cdr, Coding::big_cdr};
 const std::string kName = "test message";
 

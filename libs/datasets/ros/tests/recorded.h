@@ -14,6 +14,8 @@
 
 #include "encoder.h"
 
+using RawBytes = std::vector<std::uint8_t>;
+
 /// A message to be recorded. Types are as ROS 1 has them: "sensor_msgs/Imu".
 struct Recorded {
   std::string topic, type;

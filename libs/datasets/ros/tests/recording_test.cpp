@@ -10,6 +10,7 @@
 
 #include "bag_writer.h"
 #include "bytes/byte_source.h"
+#include "content.h"
 #include "db3_writer.h"
 #include "mcap_writer.h"
 #include "storage/storage.h"
@@ -23,28 +24,6 @@ using mcap_writer::Shape;
 
 std::string bags() {
   return test_data::folder() + "bags/";
-}
-
-// Topic, stamp and bytes of all messages, topic by topic.
-std::vector<Recorded> contentOf(const Recording& recording) {
-  std::vector<Recorded> all;
-  for (const MessageRef& ref : recording.messages()) {
-    const gslam::RecordedTopic& topic = recording.topics()[ref.topic];
-    all.push_back({topic.name, topic.type, ref.stamp, recording.read(ref)});
-  }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Recorded& a, const Recorded& b) { return a.topic < b.topic; });
-  return all;
-}
-
-void expectSame(const std::vector<Recorded>& a, const std::vector<Recorded>& b) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    ASSERT_EQ(a[i].topic, b[i].topic) << i;
-    ASSERT_EQ(a[i].type, b[i].type) << i;
-    ASSERT_EQ(a[i].received, b[i].received) << i;
-    ASSERT_EQ(a[i].bytes, b[i].bytes) << i;
-  }
 }
 
 std::vector<Recorded> someMessages() {

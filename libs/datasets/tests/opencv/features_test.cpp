@@ -9,12 +9,9 @@
 #include <string>
 #include <vector>
 
-namespace {
+#include "view.h"
 
-cv::Mat view(const gslam::Image& image) {
-  return cv::Mat(image.height(), image.width(), CV_8UC1, const_cast<std::uint8_t*>(image.bytes()),
-                 image.stride());
-}
+namespace {
 
 class SyntheticFeatures : public testing::TestWithParam<const char*> {};
 

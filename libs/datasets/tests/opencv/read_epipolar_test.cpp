@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "test_data.h"
+#include "view.h"
 
 namespace {
 
@@ -24,11 +25,6 @@ using gslam::Vec3d;
 struct Match {
   Vec2d a, b;
 };
-
-cv::Mat view(const gslam::Image& image) {
-  return cv::Mat(image.height(), image.width(), CV_8UC(image.channels()),
-                 const_cast<std::uint8_t*>(image.bytes()), image.stride());
-}
 
 Vec2d placeOf(const cv::KeyPoint& key) {
   return {double(key.pt.x), double(key.pt.y)};

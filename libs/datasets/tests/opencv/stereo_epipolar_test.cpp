@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "test_data.h"
+#include "view.h"
 
 namespace {
 
@@ -21,15 +22,11 @@ using gslam::SE3d;
 using gslam::Vec2d;
 using gslam::Vec3d;
 
-struct Match {
+struct StereoMatch {
   Vec2d left, right;
 };
 
-std::vector<Match> matchesOf(const gslam::Image& left, const gslam::Image& right) {
-  const auto view = [](const gslam::Image& image) {
-    return cv::Mat(image.height(), image.width(), CV_8UC1, const_cast<std::uint8_t*>(image.bytes()),
-                   image.stride());
-  };
+std::vector<StereoMatch> matchesOf(const gslam::Image& left, const gslam::Image& right) {
   const auto orb = cv::ORB::create(1500);
   std::vector<cv::KeyPoint> keys[2];
   cv::Mat descriptors[2];
@@ -37,7 +34,7 @@ std::vector<Match> matchesOf(const gslam::Image& left, const gslam::Image& right
   orb->detectAndCompute(view(right), cv::noArray(), keys[1], descriptors[1]);
   std::vector<std::vector<cv::DMatch>> found;
   cv::BFMatcher(cv::NORM_HAMMING).knnMatch(descriptors[0], descriptors[1], found, 2);
-  std::vector<Match> matches;
+  std::vector<StereoMatch> matches;
   for (const auto& pair : found) {
     if (pair.size() < 2 || pair[0].distance > 0.75F * pair[1].distance) continue;
     const cv::Point2f a = keys[0][std::size_t(pair[0].queryIdx)].pt;
@@ -49,10 +46,10 @@ std::vector<Match> matchesOf(const gslam::Image& left, const gslam::Image& right
 
 // Median angle between the ray of the right camera and the plane through both centres and the ray
 // of the left one, times the focal length: pixels, in the middle of the image.
-double medianDistance(const std::vector<Match>& matches, const CameraImage& left,
+double medianDistance(const std::vector<StereoMatch>& matches, const CameraImage& left,
                       const CameraImage& right, const SE3d& T_left_right) {
   std::vector<double> distances;
-  for (const Match& match : matches) {
+  for (const StereoMatch& match : matches) {
     Vec3d a, b;
     if (!left.camera.unproject(match.left, a) || !right.camera.unproject(match.right, b)) continue;
     const Vec3d normal = T_left_right.translation().cross(a);
@@ -77,7 +74,7 @@ TEST(readEuroc, StereoMatchesLieOnEpipolarLines) {
     dataset->seek(i);
     const auto frame = dataset->next();
     const CameraImage &left = frame->images[0], &right = frame->images[1];
-    const std::vector<Match> matches = matchesOf(left.image, right.image);
+    const std::vector<StereoMatch> matches = matchesOf(left.image, right.image);
     const SE3d T_left_right = left.T_body_camera.inverse() * right.T_body_camera;
     right_way.push_back(medianDistance(matches, left, right, T_left_right));
     // One degree about x; T_BS the other way round; the model of the other camera.

@@ -7,6 +7,7 @@
 #include <random>
 #include <tuple>
 
+#include "../content.h"
 #include "bytes/byte_source.h"
 #include "rosbag_files.h"
 #include "storage/storage.h"
@@ -19,32 +20,17 @@ using gslam::Recording;
 using gslam::Svar;
 using rosbag_files::BagShape;
 
-std::vector<Recorded> contentOf(const Recording& recording) {
-  std::vector<Recorded> all;
-  for (const MessageRef& ref : recording.messages()) {
-    const gslam::RecordedTopic& topic = recording.topics()[ref.topic];
-    all.push_back({topic.name, topic.type, ref.stamp, recording.read(ref)});
-  }
-  return all;
-}
-
 // Messages received at the same time may change places.
-void expectSame(std::vector<Recorded> a, std::vector<Recorded> b) {
+void expectSameInAnyOrder(std::vector<Recorded> a, std::vector<Recorded> b) {
   const auto earlier = [](const Recorded& x, const Recorded& y) {
     return std::tie(x.received, x.topic, x.bytes) < std::tie(y.received, y.topic, y.bytes);
   };
   std::sort(a.begin(), a.end(), earlier);
   std::sort(b.begin(), b.end(), earlier);
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    ASSERT_EQ(a[i].topic, b[i].topic);
-    ASSERT_EQ(a[i].type, b[i].type);
-    ASSERT_EQ(a[i].received, b[i].received);
-    ASSERT_EQ(a[i].bytes, b[i].bytes);
-  }
+  expectSame(a, b);
 }
 
-std::vector<Recorded> someMessages(int count) {
+std::vector<Recorded> noiseMessages(int count) {
   std::vector<Recorded> messages;
   for (int i = 0; i < count; ++i) {
     const std::int64_t stamp = 1000000000LL * (i + 5) + i;
@@ -61,12 +47,12 @@ TEST(rosbag, given_bags_are_read_as_rosbag_reads_them) {
     const std::string path = test_data::folder() + "bags/ros1/" + name + ".bag";
     const auto recording = Recording::open(path);
     EXPECT_TRUE(recording->remarks().empty());
-    expectSame(contentOf(*recording), rosbag_files::read(path));
+    expectSameInAnyOrder(contentOf(*recording), rosbag_files::read(path));
   }
 }
 
 TEST(rosbag, every_compression_and_size_of_chunks) {
-  const std::vector<Recorded> messages = someMessages(60);
+  const std::vector<Recorded> messages = noiseMessages(60);
   for (const std::string compression : {"none", "bz2", "lz4"}) {
     for (const std::uint32_t chunk : {1U, 2000U, 1U << 20}) {
       BagShape shape;
@@ -78,7 +64,7 @@ TEST(rosbag, every_compression_and_size_of_chunks) {
       EXPECT_TRUE(recording->remarks().empty());
       EXPECT_EQ(recording->topics().size(), 2U);
       EXPECT_EQ(recording->topics()[0].encoding, "ros1");
-      expectSame(contentOf(*recording), messages);
+      expectSameInAnyOrder(contentOf(*recording), messages);
       const MessageRef last = recording->messages().back();
       const auto head = recording->readHead(last, 20);
       EXPECT_TRUE(std::equal(head.begin(), head.begin() + 20, messages.back().bytes.begin()));
@@ -93,13 +79,13 @@ TEST(rosbag, a_bag_that_was_not_closed_keeps_its_whole_chunks) {
     shape.chunk_size = 500;
     shape.is_closed = false;
     const std::string path = folderOfTests() + "open.bag";
-    rosbag_files::write(path, someMessages(60), shape);
+    rosbag_files::write(path, noiseMessages(60), shape);
     const auto recording = Recording::open(path);
     EXPECT_GT(recording->messages().size(), 40U);
     EXPECT_TRUE(hasAny(recording->remarks(), "rosbag reindex"));
-    std::vector<Recorded> found = contentOf(*recording), all = someMessages(60);
+    std::vector<Recorded> found = contentOf(*recording), all = noiseMessages(60);
     all.resize(found.size());
-    expectSame(found, all);
+    expectSameInAnyOrder(found, all);
   }
 }
 
@@ -111,7 +97,7 @@ TEST(rosbag, a_bag_that_was_not_closed_keeps_messages_of_its_open_chunk) {
     shape.chunk_size = 768 * 1024;
     shape.is_closed = false;
     const std::string path = folderOfTests() + "killed.bag";
-    std::vector<Recorded> all = someMessages(200);  // 270 KB
+    std::vector<Recorded> all = noiseMessages(200);  // 270 KB
     rosbag_files::write(path, all, shape);
     const auto recording = Recording::open(path);
     std::vector<Recorded> found = contentOf(*recording);
@@ -122,7 +108,7 @@ TEST(rosbag, a_bag_that_was_not_closed_keeps_messages_of_its_open_chunk) {
       EXPECT_TRUE(hasAny(recording->remarks(), "was not closed, and what is compressed in it"));
     }
     all.resize(found.size());
-    expectSame(found, all);
+    expectSameInAnyOrder(found, all);
   }
 }
 
@@ -193,7 +179,7 @@ TEST(rosbag, images_come_back_pixel_for_pixel) {
 
 // --- hostile bags --------------------------------------------------------------------------------
 
-void readAll(const std::vector<std::uint8_t>& bytes, std::size_t most) {
+void readHostile(const std::vector<std::uint8_t>& bytes, std::size_t most) {
   std::size_t count = 0;
   try {
     const auto storage = gslam::ros::openBag(gslam::ros::openMemory(bytes, "hostile"));
@@ -217,7 +203,7 @@ std::vector<std::uint8_t> smallBag(const std::string& compression) {
   shape.compression = compression;
   shape.chunk_size = 150;
   const std::string path = folderOfTests() + "small.bag";
-  rosbag_files::write(path, someMessages(5), shape);
+  rosbag_files::write(path, noiseMessages(5), shape);
   return readFile(path);
 }
 
@@ -228,7 +214,8 @@ TEST(hostile_rosbag, every_prefix_is_an_error_or_a_shorter_recording) {
     // tried.
     const std::size_t step = compression == "none" ? 1 : 7;
     for (std::size_t size = 0; size<bytes.size(); size += size> 100 && size < 4000 ? 100 : step) {
-      readAll(std::vector<std::uint8_t>(bytes.begin(), bytes.begin() + std::ptrdiff_t(size)), 5);
+      readHostile(std::vector<std::uint8_t>(bytes.begin(), bytes.begin() + std::ptrdiff_t(size)),
+                  5);
     }
   }
 }
@@ -242,7 +229,7 @@ TEST(hostile_rosbag, changed_bytes_do_no_harm) {
       // Most of the first 4 kB is padding.
       const std::size_t at = i % 10 == 0 ? random() % 100 : 4000 + random() % (bytes.size() - 4000);
       changed[at] = static_cast<std::uint8_t>(random());
-      readAll(changed, 1000);
+      readHostile(changed, 1000);
     }
   }
 }
