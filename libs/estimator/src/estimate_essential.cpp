@@ -16,7 +16,7 @@ Mat3d matrixOf(const detail::ModelNumbers& model) {
   return e;
 }
 
-EssentialEstimate estimateOf(detail::LoopResult found) {
+EssentialEstimate essentialEstimate(detail::LoopResult found) {
   EssentialEstimate estimate;
   static_cast<EstimateSummary&>(estimate) = std::move(found.summary);
   if (!found.has_model) return estimate;
@@ -31,13 +31,13 @@ EssentialEstimate estimateOf(detail::LoopResult found) {
 
 EssentialEstimate estimateEssential(Span<const Vec3d> first, Span<const Vec3d> second,
                                     const EstimateOptions& options) {
-  return estimateOf(detail::searchRelativePose(first, second, options));
+  return essentialEstimate(detail::searchRelativePose(first, second, options));
 }
 
 EssentialEstimate estimateEssential(Span<const Vec2d> first, Span<const Vec2d> second,
                                     const Camera& first_camera, const Camera& second_camera,
                                     const EstimateOptions& options) {
-  return estimateOf(
+  return essentialEstimate(
       detail::searchRelativePose(first, second, first_camera, second_camera, options));
 }
 

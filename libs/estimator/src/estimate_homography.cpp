@@ -25,7 +25,7 @@ detail::BearingHomographyProblem::Match matchOf(const Vec2d& first, const Vec2d&
   return match;
 }
 
-bool checkCamera(const char* name, const Camera& camera, EstimateSummary& summary) {
+bool requireCamera(const char* name, const Camera& camera, EstimateSummary& summary) {
   return camera.isValid() || detail::refuseInput(std::string(name) + " is none", summary);
 }
 
@@ -55,8 +55,8 @@ HomographyEstimate estimateHomography(Span<const Vec2d> first, Span<const Vec2d>
                                       const EstimateOptions& options) {
   HomographyEstimate result;
   if (!detail::checkPairs(first, second, 4, kHomographyThreshold, options, result) ||
-      !checkCamera("first_camera", first_camera, result) ||
-      !checkCamera("second_camera", second_camera, result)) {
+      !requireCamera("first_camera", first_camera, result) ||
+      !requireCamera("second_camera", second_camera, result)) {
     return result;
   }
   const Degeneracy shape1 = detail::shapeOfAll(first), shape2 = detail::shapeOfAll(second);

@@ -10,7 +10,7 @@ namespace {
 
 using detail::EssentialProblem;
 
-RelativePoseEstimate estimateOf(detail::LoopResult found) {
+RelativePoseEstimate relativePoseEstimate(detail::LoopResult found) {
   RelativePoseEstimate estimate;
   static_cast<EstimateSummary&>(estimate) = std::move(found.summary);
   if (!found.has_model) return estimate;
@@ -25,13 +25,13 @@ RelativePoseEstimate estimateOf(detail::LoopResult found) {
 
 RelativePoseEstimate estimateRelativePose(Span<const Vec3d> first, Span<const Vec3d> second,
                                           const EstimateOptions& options) {
-  return estimateOf(detail::searchRelativePose(first, second, options));
+  return relativePoseEstimate(detail::searchRelativePose(first, second, options));
 }
 
 RelativePoseEstimate estimateRelativePose(Span<const Vec2d> first, Span<const Vec2d> second,
                                           const Camera& first_camera, const Camera& second_camera,
                                           const EstimateOptions& options) {
-  return estimateOf(
+  return relativePoseEstimate(
       detail::searchRelativePose(first, second, first_camera, second_camera, options));
 }
 

@@ -15,13 +15,17 @@
 #include <random>
 #include <vector>
 
+#include "closed_form_helpers.h"
+
 namespace absolute_pose {
 
 using gslam::SE3d;
 using gslam::Vec3d;
+using solver_test::isFinite;
+using solver_test::poseError;
 using Generator = std::mt19937;
 
-struct Scene {
+struct PoseScene {
   std::array<Vec3d, 3> origins{};  // of the rays, in camera coordinates; zero for a camera
   std::array<Vec3d, 3> bearings;
   std::array<Vec3d, 3> points;
@@ -35,9 +39,9 @@ inline Vec3d inView(Generator& generator, double near = 1, double far = 10) {
 }
 
 // The scene of points in camera coordinates; their bearings are made from the rounded points.
-inline Scene sceneOf(Generator& generator, const std::array<Vec3d, 3>& in_camera,
-                     const std::array<Vec3d, 3>& origins = {}) {
-  Scene scene;
+inline PoseScene sceneOf(Generator& generator, const std::array<Vec3d, 3>& in_camera,
+                         const std::array<Vec3d, 3>& origins = {}) {
+  PoseScene scene;
   scene.origins = origins;
   scene.T_camera_world = gslam::randomOf<SE3d>(generator, 5.0);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -47,22 +51,17 @@ inline Scene sceneOf(Generator& generator, const std::array<Vec3d, 3>& in_camera
   return scene;
 }
 
-inline Scene randomScene(Generator& generator) {
+inline PoseScene randomPoseScene(Generator& generator) {
   const Vec3d a = inView(generator), b = inView(generator), c = inView(generator);
   return sceneOf(generator, {a, b, c});
 }
 
 // The third point is off the line of the others by `height` of their distance.
-inline Scene flatScene(Generator& generator, double height) {
+inline PoseScene flatScene(Generator& generator, double height) {
   const Vec3d a = inView(generator), b = inView(generator);
   const double part = gslam::randomUniform(generator, 0.1, 0.9);
   const Vec3d off = (height * (b - a).norm()) * gslam::randomDirection<double>(generator);
   return sceneOf(generator, {a, b, (1 - part) * a + part * b + off});
-}
-
-inline double poseError(const SE3d& a, const SE3d& b) {
-  return (a.rotation().inverse() * b.rotation()).angle() +
-         (a.translation() - b.translation()).norm();
 }
 
 inline double errorOf(const SE3d* found, std::size_t count, const SE3d& truth) {
@@ -71,13 +70,9 @@ inline double errorOf(const SE3d* found, std::size_t count, const SE3d& truth) {
   return least;
 }
 
-inline bool isFinite(const SE3d& pose) {
-  return std::all_of(pose.data(), pose.data() + 7, [](double x) { return std::isfinite(x); });
-}
-
 // The largest angle, about, between a ray and where the pose sees its point; in long double, from
 // the quaternion. 2 where a point is behind.
-inline double rayError(const SE3d& pose, const Scene& scene, std::size_t points = 3) {
+inline double rayError(const SE3d& pose, const PoseScene& scene, std::size_t points = 3) {
   using Real = long double;
   const double* const n = pose.data();
   const Real x = n[0], y = n[1], z = n[2], w = n[3];

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <vector>
 
-#include "instances.h"
 #include "robust/examination.h"
 #include "robust/stopping.h"
 #include "robust/translation_survey.h"
@@ -17,16 +16,6 @@ namespace {
 
 using namespace gslam;        // NOLINT(google-build-using-namespace)
 using namespace robust_test;  // NOLINT(google-build-using-namespace)
-
-constexpr double kDegree = 3.14159265358979323846 / 180;
-
-int trials(int daily) {
-  return static_cast<int>(solver_test::instances(10)) / 10 * daily;
-}
-
-double directionError(const SE3d& found, const SE3d& truth) {
-  return angleBetween(found.translation(), truth.translation());
-}
 
 double leastDirectionError(const RelativePoseEstimate& found, const SE3d& truth) {
   const double error = directionError(found.model, truth);
@@ -88,11 +77,11 @@ TEST(CutOffFactorTest, IsThatOfNormalNoise) {
 
 TEST(WithoutChanceParallaxTest, KeepsWhatMovesLikeTheOthers) {
   Generator generator(5);
-  Scene scene;
+  SceneRecipe scene;
   scene.baseline = 0.2;
   std::size_t lost = 0, wrong = 0;
   for (int trial = 0; trial < 20; ++trial) {
-    const TwoViews views = makeTwoViews(generator, pinhole(), pinhole(), scene);
+    const MatchedPixels views = makeMatchedPixels(generator, pinhole(), pinhole(), scene);
     const detail::RandomOrder order = detail::randomOrder(scene.count, 3);
     const auto matches = detail::EpipolarMatches::fromPinholes(views.first, views.second, pinhole(),
                                                                pinhole(), order);
@@ -118,12 +107,12 @@ TEST(WithoutChanceParallaxTest, KeepsWhatMovesLikeTheOthers) {
 TEST(ShortBaselineTest, IsNotOkAndWrong) {
   for (const double baseline : {0.1, 0.15, 0.2}) {
     Generator generator(11);
-    Scene scene;
+    SceneRecipe scene;
     scene.baseline = baseline;
     int ok = 0, wrong = 0, beyond = 0;
     const int count = trials(60);
     for (int trial = 0; trial < count; ++trial) {
-      const TwoViews views = makeTwoViews(generator, pinhole(), pinhole(), scene);
+      const MatchedPixels views = makeMatchedPixels(generator, pinhole(), pinhole(), scene);
       EstimateOptions options;
       options.threshold = 3;
       const RelativePoseEstimate found =
@@ -146,13 +135,13 @@ TEST(ShortBaselineTest, IsNotOkAndWrong) {
 
 TEST(PlaneSeenTwiceTest, OneOfTheTwoPosesIsRight) {
   Generator generator(12);
-  Scene scene;
+  SceneRecipe scene;
   scene.outliers = 0.3;
   scene.planar = 1;
   int ok = 0, wrong = 0;
   const int count = trials(60);
   for (int trial = 0; trial < count; ++trial) {
-    const TwoViews views = makeTwoViews(generator, pinhole(), pinhole(), scene);
+    const MatchedPixels views = makeMatchedPixels(generator, pinhole(), pinhole(), scene);
     EstimateOptions options;
     options.threshold = 3;
     const RelativePoseEstimate found =
@@ -174,7 +163,7 @@ TEST(TwoViewsTest, EndInNoLocalOptimum) {
   int wrong = 0;
   const int count = trials(150);
   for (int trial = 0; trial < count; ++trial) {
-    const TwoViews views = makeTwoViews(generator, pinhole(), pinhole(), Scene());
+    const MatchedPixels views = makeMatchedPixels(generator, pinhole(), pinhole(), SceneRecipe());
     EstimateOptions options;
     options.threshold = 3;
     options.seed = static_cast<std::uint64_t>(trial);

@@ -44,6 +44,11 @@ inline bool isFinite(const SE3d& t) {
   return isFinite(t.rotation().quaternion()) && isFinite(t.translation());
 }
 
+inline double poseError(const SE3d& a, const SE3d& b) {
+  return (a.rotation().inverse() * b.rotation()).angle() +
+         (a.translation() - b.translation()).norm();
+}
+
 template <std::size_t R, std::size_t C>
 double frobenius(const Mat<double, R, C>& m) {
   double sum = 0;

@@ -30,7 +30,7 @@ std::array<double, 4> polynomial(double factor, double r0, double r1, double r2)
            static_cast<double>(a * (x * y + y * z + z * x)), static_cast<double>(-a * x * y * z)}};
 }
 
-double distanceToNearest(const std::array<double, 3>& roots, std::size_t count, double truth) {
+double distanceToNearestRoot(const std::array<double, 3>& roots, std::size_t count, double truth) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < count; ++i) least = std::min(least, std::fabs(roots[i] - truth));
   return least;
@@ -61,7 +61,8 @@ TEST(Cubic, FindsThreeRootsOfAllSizes) {
           std::pow(std::max({std::fabs(r[0]), std::fabs(r[1]), std::fabs(r[2]), 1e-300}), 2);
       const double allowed =
           1e-14 * std::fabs(r[k]) * (1 + terms / apart) + 1e-13 * std::fabs(r[k]);
-      ASSERT_LT(distanceToNearest(roots, count, r[k]), std::max(allowed, 1e-6 * std::fabs(r[k])))
+      ASSERT_LT(distanceToNearestRoot(roots, count, r[k]),
+                std::max(allowed, 1e-6 * std::fabs(r[k])))
           << i << ' ' << r[k];
     }
   }

@@ -19,11 +19,12 @@ using gslam::ArgumentError;
 using gslam::Span;
 using namespace solver_test;  // NOLINT(google-build-using-namespace)
 
-using Solver = std::size_t (*)(Span<const Vec3d>, Span<const Vec3d>, std::array<Mat3d, 10>&);
+using FivePointSolver = std::size_t (*)(Span<const Vec3d>, Span<const Vec3d>,
+                                        std::array<Mat3d, 10>&);
 
 struct FivePoints {
   const char* name;
-  Solver solve;
+  FivePointSolver solve;
   double most_lost;   // part of the instances
   double most_error;  // of the essential constraint
 };
@@ -257,11 +258,6 @@ TEST(Essential8pt, GivesOnlyValidSolutions) {
     EXPECT_THROW(gslam::essential8pt(first.first(7), second.first(7), found), ArgumentError);
     EXPECT_THROW(gslam::essential8pt(first.first(8), second.first(7), found), ArgumentError);
   }
-}
-
-double poseError(const SE3d& a, const SE3d& b) {
-  return (a.rotation().inverse() * b.rotation()).angle() +
-         (a.translation() - b.translation()).norm();
 }
 
 TEST(DecomposeEssential, GivesFourPosesOfTheMatrix) {

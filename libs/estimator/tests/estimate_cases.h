@@ -9,6 +9,7 @@
 #include <gslam/estimator/estimate_rigid_3d.h>
 #include <gslam/estimator/estimate_similarity_3d.h>
 #include <gslam/geometry/random.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstddef>
@@ -224,6 +225,9 @@ struct PlaneData {
     if (plane[3] < 0) plane = -1.0 * plane;
   }
 };
+
+using Cases =
+    ::testing::Types<HomographyCase, Affine2DCase, Affine3DCase, RigidCase, SimilarityCase>;
 
 }  // namespace estimate_test
 

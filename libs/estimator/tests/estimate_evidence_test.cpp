@@ -15,16 +15,14 @@
 #include <vector>
 
 #include "estimate_cases.h"
+#include "robust_scenes.h"
 
 using namespace estimate_test;  // NOLINT(google-build-using-namespace): these are its tests
 using gslam::Camera;
 using gslam::EstimateStatus;
+using robust_test::pinhole;
 
 namespace {
-
-Camera pinhole() {
-  return Camera::fromParameters("pinhole", 640, 480, {500, 500, 319.5, 239.5});
-}
 
 Vec2d anyPixel(std::mt19937& g) {
   return {{gslam::randomUniform(g, 0.0, 640.0), gslam::randomUniform(g, 0.0, 480.0)}};
@@ -94,8 +92,6 @@ void expectNothing(const char* name, const Noise::Change& change) {
 }
 
 void anywhere(std::mt19937&, std::size_t, Vec2d&, Vec2d&) {}
-
-}  // namespace
 
 TEST(EstimateEvidence, ClustersAreNoConsensus) {
   expectNothing("half in a small cluster", [](std::mt19937& g, std::size_t i, Vec2d&, Vec2d& b) {
@@ -230,22 +226,16 @@ TEST(EstimateEvidence, RepeatedMatchesDoNotChangeTheCovariance) {
   }
 }
 
-namespace {
-
 template <class Case>
 class EstimateWithOneAbsurdMatch : public ::testing::Test {};
 
-using Cases =
-    ::testing::Types<HomographyCase, Affine2DCase, Affine3DCase, RigidCase, SimilarityCase>;
 TYPED_TEST_SUITE(EstimateWithOneAbsurdMatch, Cases, );
 
-constexpr double kAbsurd[] = {1e4, 1e6, 1e9, 1e12, 1e20, 1e160, 1e308};
-
-}  // namespace
+constexpr double kFarCoordinates[] = {1e4, 1e6, 1e9, 1e12, 1e20, 1e160, 1e308};
 
 TYPED_TEST(EstimateWithOneAbsurdMatch, LosesNothing) {
   std::mt19937 generator(7);
-  for (const double far : kAbsurd) {
+  for (const double far : kFarCoordinates) {
     for (int side = 1; side <= 3; ++side) {
       typename TypeParam::Model truth;
       auto pairs = makePairsOf<TypeParam>(generator, {100, 0.3, 0.5}, truth);
@@ -266,7 +256,7 @@ TYPED_TEST(EstimateWithOneAbsurdMatch, LosesNothing) {
 
 TEST(EstimatePlane, LosesNothingByOneAbsurdPoint) {
   std::mt19937 generator(8);
-  for (const double far : kAbsurd) {
+  for (const double far : kFarCoordinates) {
     PlaneData data(generator, {100, 0.3, 0.5});
     data.points[7] = {{far, -far, far}};
     EstimateOptions options;
@@ -280,7 +270,7 @@ TEST(EstimatePlane, LosesNothingByOneAbsurdPoint) {
 
 TEST(EstimateHomography, LosesNothingByOneAbsurdPixelOfACamera) {
   std::mt19937 generator(9);
-  for (const double far : kAbsurd) {
+  for (const double far : kFarCoordinates) {
     std::vector<Vec2d> first, second;
     for (int i = 0; i < 60; ++i) {
       first.push_back(anyPixel(generator));
@@ -293,13 +283,9 @@ TEST(EstimateHomography, LosesNothingByOneAbsurdPixelOfACamera) {
   }
 }
 
-namespace {
-
 bool says(const std::string& message, const char* part) {
   return message.find(part) != std::string::npos;
 }
-
-}  // namespace
 
 TEST(EstimateMessages, SayHowManyMatchesAreNeeded) {
   std::mt19937 generator(10);
@@ -367,3 +353,5 @@ TEST(EstimateEvidence, BadRankingsEndInTime) {
   }
   EXPECT_EQ(10, found);
 }
+
+}  // namespace

@@ -4,21 +4,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "closed_form_helpers.h"
 #include "estimate_cases.h"
 
 using namespace estimate_test;  // NOLINT(google-build-using-namespace): these are its tests
 using gslam::EstimateScoring;
 using gslam::EstimateStatus;
+using solver_test::kInf;
+using solver_test::kNan;
 
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <class Case>
 class EstimateInput : public ::testing::Test {
@@ -43,11 +42,7 @@ class EstimateInput : public ::testing::Test {
   EstimateOptions options_;
 };
 
-using Cases =
-    ::testing::Types<HomographyCase, Affine2DCase, Affine3DCase, RigidCase, SimilarityCase>;
 TYPED_TEST_SUITE(EstimateInput, Cases, );
-
-}  // namespace
 
 TYPED_TEST(EstimateInput, IsAccepted) {
   EXPECT_TRUE(TypeParam::estimate(this->pairs_, this->options_).ok());
@@ -59,7 +54,7 @@ TYPED_TEST(EstimateInput, HasSizesThatAgree) {
 }
 
 TYPED_TEST(EstimateInput, IsFinite) {
-  for (const double strange : {kNan, kInfinity, -kInfinity}) {
+  for (const double strange : {kNan, kInf, -kInf}) {
     const auto good = this->pairs_;
     this->pairs_.second[17][1] = strange;
     this->expectRefused("second[17] is not finite");
@@ -92,7 +87,7 @@ TYPED_TEST(EstimateInput, HasOptionsInRange) {
     this->expectRefused(part);
     this->options_ = good;
   };
-  for (const double bad : {-1.0, kNan, kInfinity}) {
+  for (const double bad : {-1.0, kNan, kInf}) {
     with([bad](EstimateOptions& o) { o.threshold = bad; }, "threshold");
   }
   for (const double bad : {-1.0, 0.0, 1.0, 2.0, kNan}) {
@@ -157,3 +152,5 @@ TEST(EstimatePlaneInput, IsChecked) {
   const std::vector<Vec3d> same(20, Vec3d{{1, 2, 3}});
   EXPECT_EQ(EstimateStatus::Degenerate, gslam::estimatePlane(same, options).status);
 }
+
+}  // namespace

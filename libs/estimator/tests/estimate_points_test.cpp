@@ -25,8 +25,6 @@ namespace {
 template <class Case>
 class EstimateMaps : public ::testing::Test {};
 
-using Cases =
-    ::testing::Types<HomographyCase, Affine2DCase, Affine3DCase, RigidCase, SimilarityCase>;
 TYPED_TEST_SUITE(EstimateMaps, Cases, );
 
 EstimateOptions optionsWith(double threshold) {
@@ -36,15 +34,13 @@ EstimateOptions optionsWith(double threshold) {
 }
 
 template <class Result>
-void expectSame(const Result& a, const Result& b) {
+void expectSameEstimate(const Result& a, const Result& b) {
   EXPECT_EQ(a.covariance, b.covariance);
   EXPECT_EQ(a.inliers, b.inliers);
   EXPECT_EQ(a.iterations, b.iterations);
   EXPECT_EQ(a.score, b.score);
   EXPECT_EQ(a.message, b.message);
 }
-
-}  // namespace
 
 TYPED_TEST(EstimateMaps, FindTheTruthWithEveryScoringAndSampling) {
   std::mt19937 generator(1);
@@ -124,7 +120,7 @@ TYPED_TEST(EstimateMaps, HaveTheSameBitsForAnyNumberOfThreads) {
     for (const unsigned threads : {2u, 3u, 8u}) {
       options.threads = threads;
       const auto several = TypeParam::estimate(pairs, options);
-      expectSame(one, several);
+      expectSameEstimate(one, several);
       EXPECT_EQ(0, distanceOf<TypeParam>(one.model, several.model));
     }
   }
@@ -345,7 +341,7 @@ TEST(EstimateHomography, BetweenCameras) {
     double norm = 0;
     for (const double value : result.model.values) norm += value * value;
     EXPECT_NEAR(1, norm, 1e-12);
-    expectSame(result, gslam::estimateHomography(first, second, pinhole, fisheye));
+    expectSameEstimate(result, gslam::estimateHomography(first, second, pinhole, fisheye));
   }
   const std::vector<Vec2d> some(10, Vec2d{{1, 2}});
   EXPECT_EQ(EstimateStatus::InvalidInput,
@@ -424,3 +420,5 @@ TEST(EstimatePlane, FindsNothingInNoise) {
     EXPECT_FALSE(gslam::estimatePlane(data.points, options).ok());
   }
 }
+
+}  // namespace

@@ -9,19 +9,12 @@
 #include <numeric>
 #include <vector>
 
-#include "instances.h"
 #include "robust_scenes.h"
 
 namespace {
 
 using namespace gslam;        // NOLINT(google-build-using-namespace)
 using namespace robust_test;  // NOLINT(google-build-using-namespace)
-
-constexpr double kDegree = 3.14159265358979323846 / 180;
-
-int trials(int daily) {
-  return static_cast<int>(solver_test::instances(10)) / 10 * daily;
-}
 
 std::vector<Camera> cameras() {
   return {pinhole(), unequalPinhole(), radtan(), fisheye(), panorama()};
@@ -38,7 +31,7 @@ TEST(EstimateAbsolutePoseTest, FindsThePoseForAllCameras) {
     for (const Vec3d& origin : {Vec3d{0, 0, 0}, Vec3d{4.5e5, 5.1e6, 312}}) {  // UTM
       Generator generator(1);
       for (int trial = 0; trial < trials(5); ++trial) {
-        const PosedPoints posed = makePosedPoints(generator, camera, Scene(), origin);
+        const PosedPoints posed = makePosedPoints(generator, camera, SceneRecipe(), origin);
         const AbsolutePoseEstimate found = estimateAbsolutePose(posed.pixels, camera, posed.points);
         expectRight(found, posed.T_world_camera, camera.modelName().c_str());
         EXPECT_EQ(found.degeneracy, Degeneracy::None);
@@ -69,7 +62,7 @@ TEST(EstimateAbsolutePoseTest, FindsThePoseForAllCameras) {
 
 TEST(EstimateAbsolutePoseTest, PlanesAreAsGood) {
   Generator generator(2);
-  Scene scene;
+  SceneRecipe scene;
   scene.planar = 1;
   for (int trial = 0; trial < trials(10); ++trial) {
     const PosedPoints posed = makePosedPoints(generator, pinhole(), scene);
@@ -82,7 +75,7 @@ TEST(EstimateAbsolutePoseTest, PlanesAreAsGood) {
 TEST(EstimateAbsolutePoseTest, FlagsLinesAndSinglePoints) {
   Generator generator(3);
   for (int trial = 0; trial < trials(10); ++trial) {
-    PosedPoints posed = makePosedPoints(generator, pinhole(), Scene());
+    PosedPoints posed = makePosedPoints(generator, pinhole(), SceneRecipe());
     const SE3d inverse = posed.T_world_camera.inverse();
     const Vec3d a = posed.T_world_camera * Vec3d{-2, -1, 6};
     const Vec3d b = posed.T_world_camera * Vec3d{2, 1.5, 9};
@@ -110,7 +103,7 @@ TEST(EstimateAbsolutePoseTest, FlagsLinesAndSinglePoints) {
 }
 
 TEST(EstimateAbsolutePoseTest, CovarianceIsThatOfManyTrials) {
-  Scene scene;
+  SceneRecipe scene;
   scene.outliers = 0;
   scene.sigma = 0;
   scene.count = 100;
@@ -145,7 +138,7 @@ TEST(EstimateAbsolutePoseTest, NeverCallsAWrongPoseOk) {
   options.max_iterations = 100;
   for (const double outliers : {0.9, 1.0}) {
     Generator generator(5);
-    Scene scene;
+    SceneRecipe scene;
     scene.outliers = outliers;
     for (int trial = 0; trial < trials(50); ++trial) {
       const PosedPoints posed = makePosedPoints(generator, pinhole(), scene);
@@ -241,7 +234,7 @@ TEST(EstimateRigPoseTest, AnswersBadInputWithAStatus) {
 
 TEST(EstimateAbsolutePoseTest, ThreadsAndOrderDoNotMatter) {
   Generator generator(8);
-  Scene scene;
+  SceneRecipe scene;
   scene.sigma = 0.3;
   const PosedPoints posed = makePosedPoints(generator, fisheye(), scene);
   EstimateOptions options;

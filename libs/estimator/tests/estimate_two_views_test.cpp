@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "instances.h"
 #include "robust_scenes.h"
 
 namespace {
@@ -20,18 +19,11 @@ namespace {
 using namespace gslam;        // NOLINT(google-build-using-namespace)
 using namespace robust_test;  // NOLINT(google-build-using-namespace)
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
-
-// Trials of the daily tier, or twenty times as many.
-int trials(int daily) {
-  return static_cast<int>(solver_test::instances(10)) / 10 * daily;
-}
-
-struct Pair {
+struct CameraPair {
   std::string name;
   Camera first, second;
 };
-std::vector<Pair> cameraPairs() {
+std::vector<CameraPair> cameraPairs() {
   return {{"pinhole", pinhole(), pinhole()},    {"unequal pinholes", pinhole(), unequalPinhole()},
           {"radtan", radtan(), radtan()},       {"fisheye", fisheye(), fisheye()},
           {"panorama", panorama(), panorama()}, {"pinhole and fisheye", pinhole(), fisheye()}};
@@ -67,10 +59,11 @@ double sampsonOfPixels(const Mat3d& e, const Camera& first_camera, const Camera&
 }
 
 TEST(EstimateRelativePoseTest, FindsThePoseForAllCameras) {
-  for (const Pair& pair : cameraPairs()) {
+  for (const CameraPair& pair : cameraPairs()) {
     Generator generator(1);
     for (int trial = 0; trial < trials(5); ++trial) {
-      const TwoViews views = makeTwoViews(generator, pair.first, pair.second, Scene());
+      const MatchedPixels views =
+          makeMatchedPixels(generator, pair.first, pair.second, SceneRecipe());
       EstimateOptions options;
       options.threshold = 3;
       const RelativePoseEstimate found =
@@ -78,9 +71,7 @@ TEST(EstimateRelativePoseTest, FindsThePoseForAllCameras) {
       ASSERT_EQ(found.status, EstimateStatus::Ok) << pair.name << ' ' << found.message;
       EXPECT_EQ(found.degeneracy, Degeneracy::None) << pair.name;
       EXPECT_LT(rotationError(found.model, views.T_second_first), 1.5 * kDegree) << pair.name;
-      EXPECT_LT(angleBetween(found.model.translation(), views.T_second_first.translation()),
-                7 * kDegree)
-          << pair.name;
+      EXPECT_LT(directionError(found.model, views.T_second_first), 7 * kDegree) << pair.name;
       EXPECT_NEAR(found.model.translation().norm(), 1, 1e-12);
       EXPECT_GT(trueInliers(found, views.is_true), 90u);
       EXPECT_LT(found.inlier_count, 112u);
@@ -91,7 +82,7 @@ TEST(EstimateRelativePoseTest, FindsThePoseForAllCameras) {
 TEST(EstimateRelativePoseTest, FindsThePoseOfBearings) {
   Generator generator(2);
   for (const Camera& camera : {pinhole(), fisheye(), panorama()}) {
-    const TwoViews views = makeTwoViews(generator, camera, camera, Scene());
+    const MatchedPixels views = makeMatchedPixels(generator, camera, camera, SceneRecipe());
     const std::vector<Vec3d> first = bearingsOf(camera, views.first);
     std::vector<Vec3d> second = bearingsOf(camera, views.second);
     for (Vec3d& b : second) b *= 7;  // any length
@@ -100,17 +91,16 @@ TEST(EstimateRelativePoseTest, FindsThePoseOfBearings) {
     const RelativePoseEstimate found = estimateRelativePose(first, second, options);
     ASSERT_EQ(found.status, EstimateStatus::Ok) << found.message;
     EXPECT_LT(rotationError(found.model, views.T_second_first), 2 * kDegree);
-    EXPECT_LT(angleBetween(found.model.translation(), views.T_second_first.translation()),
-              8 * kDegree);
+    EXPECT_LT(directionError(found.model, views.T_second_first), 8 * kDegree);
   }
 }
 
 TEST(EstimateRelativePoseTest, IsExactWithoutNoise) {
-  Scene scene;
+  SceneRecipe scene;
   scene.sigma = 0;
-  for (const Pair& pair : cameraPairs()) {
+  for (const CameraPair& pair : cameraPairs()) {
     Generator generator(3);
-    const TwoViews views = makeTwoViews(generator, pair.first, pair.second, scene);
+    const MatchedPixels views = makeMatchedPixels(generator, pair.first, pair.second, scene);
     EstimateOptions options;
     options.threshold = 0.1;
     const RelativePoseEstimate found =
@@ -123,9 +113,10 @@ TEST(EstimateRelativePoseTest, IsExactWithoutNoise) {
 }
 
 TEST(EstimateRelativePoseTest, MaskIsThatOfTheReturnedModel) {
-  for (const Pair& pair : cameraPairs()) {
+  for (const CameraPair& pair : cameraPairs()) {
     Generator generator(4);
-    const TwoViews views = makeTwoViews(generator, pair.first, pair.second, Scene());
+    const MatchedPixels views =
+        makeMatchedPixels(generator, pair.first, pair.second, SceneRecipe());
     const RelativePoseEstimate found =
         estimateRelativePose(views.first, views.second, pair.first, pair.second);
     ASSERT_TRUE(found.ok());
@@ -157,7 +148,7 @@ TEST(EstimateRelativePoseTest, MaskIsThatOfTheReturnedModel) {
 
 TEST(EstimateEssentialTest, IsThatOfTheRelativePose) {
   Generator generator(5);
-  const TwoViews views = makeTwoViews(generator, radtan(), radtan(), Scene());
+  const MatchedPixels views = makeMatchedPixels(generator, radtan(), radtan(), SceneRecipe());
   const RelativePoseEstimate pose =
       estimateRelativePose(views.first, views.second, radtan(), radtan());
   const EssentialEstimate essential =
@@ -173,14 +164,14 @@ TEST(EstimateEssentialTest, IsThatOfTheRelativePose) {
 }
 
 TEST(EstimateRelativePoseTest, FlagsPureRotation) {
-  Scene scene;
+  SceneRecipe scene;
   scene.baseline = 0;
   int flagged = 0, wrong = 0;
   const int count = trials(20);
   for (const Camera& camera : {pinhole(), fisheye()}) {
     Generator generator(6);
     for (int trial = 0; trial < count; ++trial) {
-      const TwoViews views = makeTwoViews(generator, camera, camera, scene);
+      const MatchedPixels views = makeMatchedPixels(generator, camera, camera, scene);
       const RelativePoseEstimate found =
           estimateRelativePose(views.first, views.second, camera, camera);
       wrong += found.ok();
@@ -196,20 +187,20 @@ TEST(EstimateRelativePoseTest, FlagsPureRotation) {
 }
 
 TEST(EstimateRelativePoseTest, FindsBothPosesOfAPlane) {
-  Scene scene;
+  SceneRecipe scene;
   scene.planar = 1;
   scene.outliers = 0.3;
   const int count = trials(40);
   int right = 0, planar = 0;
   Generator generator(7);
   for (int trial = 0; trial < count; ++trial) {
-    const TwoViews views = makeTwoViews(generator, pinhole(), pinhole(), scene);
+    const MatchedPixels views = makeMatchedPixels(generator, pinhole(), pinhole(), scene);
     const RelativePoseEstimate found =
         estimateRelativePose(views.first, views.second, pinhole(), pinhole());
     planar += found.degeneracy == Degeneracy::Planar;
     const auto isRight = [&](const SE3d& pose) {
       return rotationError(pose, views.T_second_first) < 1 * kDegree &&
-             angleBetween(pose.translation(), views.T_second_first.translation()) < 5 * kDegree;
+             directionError(pose, views.T_second_first) < 5 * kDegree;
     };
     right +=
         found.ok() && (isRight(found.model) || (found.alternative && isRight(*found.alternative)));
@@ -222,7 +213,7 @@ TEST(EstimateFundamentalTest, FindsTheMatrix) {
   Generator generator(8);
   for (int trial = 0; trial < trials(5); ++trial) {
     const Camera a = pinhole(), b = unequalPinhole();
-    const TwoViews views = makeTwoViews(generator, a, b, Scene());
+    const MatchedPixels views = makeMatchedPixels(generator, a, b, SceneRecipe());
     EstimateOptions options;
     options.threshold = 3;
     const FundamentalEstimate found = estimateFundamental(views.first, views.second, options);
@@ -250,23 +241,23 @@ TEST(EstimateFundamentalTest, SeesPlanesAndTurns) {
   const int count = trials(10);
   Generator generator(9);
   for (int trial = 0; trial < count; ++trial) {
-    Scene scene;
+    SceneRecipe scene;
     scene.outliers = 0.3;
     scene.planar = 1;
-    TwoViews views = makeTwoViews(generator, pinhole(), pinhole(), scene);
+    MatchedPixels views = makeMatchedPixels(generator, pinhole(), pinhole(), scene);
     FundamentalEstimate found = estimateFundamental(views.first, views.second);
     EXPECT_EQ(found.status, EstimateStatus::Degenerate) << found.message;
     EXPECT_EQ(found.degeneracy, Degeneracy::Planar);
     scene.planar = 0;
     scene.baseline = 0;
-    views = makeTwoViews(generator, pinhole(), pinhole(), scene);
+    views = makeMatchedPixels(generator, pinhole(), pinhole(), scene);
     found = estimateFundamental(views.first, views.second);
     EXPECT_EQ(found.degeneracy, Degeneracy::Planar);
   }
 }
 
 TEST(EstimateFundamentalTest, FindsTheMatrixOfADominantPlane) {
-  Scene scene;
+  SceneRecipe scene;
   scene.count = 300;
   scene.outliers = 0.3;
   scene.planar = 0.8;
@@ -274,7 +265,7 @@ TEST(EstimateFundamentalTest, FindsTheMatrixOfADominantPlane) {
   int right = 0;
   Generator generator(10);
   for (int trial = 0; trial < count; ++trial) {
-    const TwoViews views = makeTwoViews(generator, pinhole(), pinhole(), scene);
+    const MatchedPixels views = makeMatchedPixels(generator, pinhole(), pinhole(), scene);
     const FundamentalEstimate found = estimateFundamental(views.first, views.second);
     std::size_t off_plane = 0;  // the last true ones
     for (std::size_t i = 168; i < 210; ++i) off_plane += found.inliers[i];
@@ -285,12 +276,12 @@ TEST(EstimateFundamentalTest, FindsTheMatrixOfADominantPlane) {
 
 // Covariances against many draws of the noise.
 TEST(EstimateRelativePoseTest, CovarianceIsThatOfManyTrials) {
-  Scene scene;
+  SceneRecipe scene;
   scene.outliers = 0;
   scene.sigma = 0;
   for (const Camera& camera : {pinhole(), fisheye()}) {
     Generator generator(11);
-    const TwoViews clean = makeTwoViews(generator, camera, camera, scene);
+    const MatchedPixels clean = makeMatchedPixels(generator, camera, camera, scene);
     EstimateOptions options;
     options.threshold = 5;
     Vec<double, 6> squares{}, predicted{};
@@ -298,7 +289,7 @@ TEST(EstimateRelativePoseTest, CovarianceIsThatOfManyTrials) {
     SE3d truth = clean.T_second_first;
     truth.setTranslation(truth.translation().normalized());
     for (int trial = 0; trial < count; ++trial) {
-      TwoViews views = clean;
+      MatchedPixels views = clean;
       for (Vec2d& p : views.first) p += noise(generator, 1);
       for (Vec2d& p : views.second) p += noise(generator, 1);
       const RelativePoseEstimate found =
@@ -318,18 +309,18 @@ TEST(EstimateRelativePoseTest, CovarianceIsThatOfManyTrials) {
 }
 
 TEST(EstimateFundamentalTest, CovarianceIsThatOfManyTrials) {
-  Scene scene;
+  SceneRecipe scene;
   scene.outliers = 0;
   scene.sigma = 0;
   Generator generator(12);
-  const TwoViews clean = makeTwoViews(generator, pinhole(), pinhole(), scene);
+  const MatchedPixels clean = makeMatchedPixels(generator, pinhole(), pinhole(), scene);
   EstimateOptions options;
   options.threshold = 5;
   const Mat3d truth = estimateFundamental(clean.first, clean.second, options).model;
   Vec<double, 9> squares{}, predicted{};
   const int count = 100;
   for (int trial = 0; trial < count; ++trial) {
-    TwoViews views = clean;
+    MatchedPixels views = clean;
     for (Vec2d& p : views.first) p += noise(generator, 0.3);
     for (Vec2d& p : views.second) p += noise(generator, 0.3);
     const FundamentalEstimate found = estimateFundamental(views.first, views.second, options);
@@ -354,10 +345,10 @@ TEST(EstimateTwoViewsTest, NeverCallsAWrongModelOk) {
   options.max_iterations = 200;
   for (const double outliers : {0.9, 1.0}) {
     Generator generator(13);
-    Scene scene;
+    SceneRecipe scene;
     scene.outliers = outliers;
     for (int trial = 0; trial < trials(50); ++trial) {
-      const TwoViews views = makeTwoViews(generator, pinhole(), pinhole(), scene);
+      const MatchedPixels views = makeMatchedPixels(generator, pinhole(), pinhole(), scene);
       const RelativePoseEstimate pose =
           estimateRelativePose(views.first, views.second, pinhole(), pinhole(), options);
       EXPECT_FALSE(pose.ok() && trueInliers(pose, views.is_true) < 15) << pose.message;
@@ -369,10 +360,10 @@ TEST(EstimateTwoViewsTest, NeverCallsAWrongModelOk) {
 
 TEST(EstimateTwoViewsTest, ThreadsAndOrderDoNotMatter) {
   Generator generator(14);
-  Scene scene;
+  SceneRecipe scene;
   scene.outliers = 0.4;
   scene.sigma = 0.3;
-  const TwoViews views = makeTwoViews(generator, radtan(), radtan(), scene);
+  const MatchedPixels views = makeMatchedPixels(generator, radtan(), radtan(), scene);
   EstimateOptions options;
   const RelativePoseEstimate one =
       estimateRelativePose(views.first, views.second, radtan(), radtan(), options);
@@ -386,7 +377,7 @@ TEST(EstimateTwoViewsTest, ThreadsAndOrderDoNotMatter) {
   std::vector<std::size_t> order(views.first.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::shuffle(order.begin(), order.end(), generator);
-  TwoViews shuffled = views;
+  MatchedPixels shuffled = views;
   for (std::size_t i = 0; i < order.size(); ++i) {
     shuffled.first[i] = views.first[order[i]];
     shuffled.second[i] = views.second[order[i]];
@@ -428,7 +419,7 @@ TEST(EstimateRelativePoseTest, PixelsWithoutBearingsAreOutliers) {
   Generator generator(16);
   const Camera camera =
       Camera::fromParameters("double_sphere", 640, 480, {300, 300, 319.5, 239.5, -0.2, 0.7});
-  TwoViews views = makeTwoViews(generator, camera, camera, Scene());
+  MatchedPixels views = makeMatchedPixels(generator, camera, camera, SceneRecipe());
   Vec3d unused;
   ASSERT_FALSE(camera.unproject({1e6, 1e6}, unused));
   for (std::size_t i = 0; i < 200; i += 20) views.first[i] = {1e6, 1e6};

@@ -14,9 +14,9 @@ using gslam::gp3p;
 using gslam::p3p;
 using gslam::SO3d;
 using gslam::Span;
-using Poses = std::array<SE3d, 8>;
+using RigPoses = std::array<SE3d, 8>;
 
-Scene rigScene(Generator& generator, double size, double near = 1, double far = 10) {
+PoseScene rigScene(Generator& generator, double size, double near = 1, double far = 10) {
   std::array<Vec3d, 3> origins, points;
   for (std::size_t k = 0; k < 3; ++k) {
     origins[k] = size * gslam::randomNormal<double, 3>(generator);
@@ -26,7 +26,7 @@ Scene rigScene(Generator& generator, double size, double near = 1, double far = 
   return sceneOf(generator, points, origins);
 }
 
-std::size_t solve(const Scene& scene, Poses& poses) {
+std::size_t solve(const PoseScene& scene, RigPoses& poses) {
   return gp3p(scene.origins, scene.bearings, scene.points, poses);
 }
 
@@ -35,9 +35,9 @@ template <class Make>
 std::vector<double> errorsOf(std::size_t instances, unsigned seed, double on_ray, Make make) {
   Generator generator(seed);
   std::vector<double> errors;
-  Poses poses;
+  RigPoses poses;
   for (std::size_t i = 0; i < instances; ++i) {
-    const Scene scene = make(generator);
+    const PoseScene scene = make(generator);
     const std::size_t count = solve(scene, poses);
     for (std::size_t k = 0; k < count; ++k) {
       EXPECT_LT(rayError(poses[k], scene), on_ray) << "instance " << i << " solution " << k;
@@ -48,14 +48,14 @@ std::vector<double> errorsOf(std::size_t instances, unsigned seed, double on_ray
   return errors;
 }
 
-long lostOf(const std::vector<double>& errors, double allowed = 1e-6) {
+long countLost(const std::vector<double>& errors, double allowed = 1e-6) {
   return std::count_if(errors.begin(), errors.end(), [&](double e) { return !(e < allowed); });
 }
 
 TEST(Gp3p, FindsThePose) {
   const std::vector<double> errors =
       errorsOf(solver_test::instances(), 1, 1e-9, [](Generator& g) { return rigScene(g, 1); });
-  EXPECT_EQ(lostOf(errors), 0);
+  EXPECT_EQ(countLost(errors), 0);
   EXPECT_LT(quantile(errors, 0.5), 2e-14);
   EXPECT_LT(quantile(errors, 0.99), 5e-12);
 }
@@ -65,16 +65,16 @@ TEST(Gp3p, FindsThePoseWithRigsOfEverySize) {
   for (double size : {10.0, 0.1, 1e-2, 1e-4, 1e-8, 1e-12, 1e-15}) {
     const std::vector<double> errors = errorsOf(solver_test::instances(500), 2, 1e-9,
                                                 [&](Generator& g) { return rigScene(g, size); });
-    EXPECT_EQ(lostOf(errors), 0) << size;
+    EXPECT_EQ(countLost(errors), 0) << size;
   }
 }
 
 TEST(Gp3p, AgreesWithP3pWhereAllRaysStartInOnePlace) {
   Generator generator(3);
-  Poses poses;
+  RigPoses poses;
   std::array<SE3d, 4> expected;
   for (std::size_t i = 0; i < solver_test::instances(1000); ++i) {
-    Scene scene = randomScene(generator);
+    PoseScene scene = randomPoseScene(generator);
     const Vec3d origin = gslam::randomNormal<double, 3>(generator);
     scene.origins = {origin, origin, origin};
     const std::size_t count = solve(scene, poses);
@@ -90,7 +90,7 @@ TEST(Gp3p, FindsThePoseWhereTwoRaysStartInOnePlace) {
   for (std::size_t same = 0; same < 3; ++same) {
     const std::vector<double> errors =
         errorsOf(solver_test::instances(1000), 4, 1e-9, [&](Generator& g) {
-          Scene scene = rigScene(g, 1);
+          PoseScene scene = rigScene(g, 1);
           std::array<Vec3d, 3> points;
           for (std::size_t k = 0; k < 3; ++k) {
             points[k] = scene.T_camera_world * scene.points[k];
@@ -98,7 +98,7 @@ TEST(Gp3p, FindsThePoseWhereTwoRaysStartInOnePlace) {
           scene.origins[same] = scene.origins[(same + 1) % 3];
           return sceneOf(g, points, scene.origins);
         });
-    EXPECT_EQ(lostOf(errors), 0);
+    EXPECT_EQ(countLost(errors), 0);
   }
 }
 
@@ -113,7 +113,7 @@ TEST(Gp3p, KeepsItsDigitsForNearlyCollinearPoints) {
         return sceneOf(g, {a, b, (1 - part) * a + part * b + off}, origins);
       });
   EXPECT_LT(quantile(errors, 0.5), 1e-10);
-  EXPECT_LE(lostOf(errors), static_cast<long>(errors.size() / 200));
+  EXPECT_LE(countLost(errors), static_cast<long>(errors.size() / 200));
 }
 
 TEST(Gp3p, GivesOnlySolutionsWhereThereAreInfinitelyMany) {
@@ -122,7 +122,7 @@ TEST(Gp3p, GivesOnlySolutionsWhereThereAreInfinitelyMany) {
     return sceneOf(g, {a, b, 0.5 * (a + b)}, {Vec3d{{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}});
   });
   errorsOf(solver_test::instances(300), 7, 1e-6, [](Generator& g) {  // parallel rays
-    Scene scene = rigScene(g, 1);
+    PoseScene scene = rigScene(g, 1);
     std::array<Vec3d, 3> points;
     for (std::size_t k = 0; k < 3; ++k) {
       points[k] = scene.origins[k] + Vec3d{{0, 0, gslam::randomUniform(g, 1.0, 5.0)}};
@@ -133,9 +133,9 @@ TEST(Gp3p, GivesOnlySolutionsWhereThereAreInfinitelyMany) {
 
 TEST(Gp3p, RefusesPointsBehindTheOrigins) {
   Generator generator(8);
-  Poses poses;
+  RigPoses poses;
   for (std::size_t i = 0; i < solver_test::instances(500); ++i) {
-    Scene scene = rigScene(generator, 1);
+    PoseScene scene = rigScene(generator, 1);
     const SE3d truth = scene.T_camera_world;
     scene.bearings[i % 3] = -scene.bearings[i % 3];
     const std::size_t count = solve(scene, poses);
@@ -148,7 +148,7 @@ TEST(Gp3p, RefusesPointsBehindTheOrigins) {
 
 // The residual of the third distance along the first ray, for one of the two roots that each of the
 // others has.
-double residualAt(const Scene& s, double d, int branch, Vec3d (&seen)[3], double (&depths)[3]) {
+double residualAt(const PoseScene& s, double d, int branch, Vec3d (&seen)[3], double (&depths)[3]) {
   depths[0] = d;
   seen[0] = s.origins[0] + d * s.bearings[0];
   for (std::size_t k = 1; k < 3; ++k) {
@@ -164,10 +164,10 @@ double residualAt(const Scene& s, double d, int branch, Vec3d (&seen)[3], double
 
 TEST(Gp3p, FindsEverySolutionThatASearchFinds) {
   Generator generator(9);
-  Poses poses;
+  RigPoses poses;
   std::size_t searched = 0, most = 0;
   for (std::size_t i = 0; i < solver_test::instances(100); ++i) {
-    const Scene scene = rigScene(generator, 3);
+    const PoseScene scene = rigScene(generator, 3);
     const std::size_t count = solve(scene, poses);
     most = std::max(most, count);
     for (int branch = 0; branch < 4; ++branch) {
@@ -206,21 +206,21 @@ TEST(Gp3p, FindsEverySolutionThatASearchFinds) {
 
 TEST(Gp3p, GivesNoNumberThatIsNone) {
   Generator generator(10);
-  Poses poses;
-  const auto check = [&](const Scene& scene) {
+  RigPoses poses;
+  const auto check = [&](const PoseScene& scene) {
     const std::size_t count = solve(scene, poses);
     ASSERT_LE(count, 8u);
     for (std::size_t k = 0; k < count; ++k) EXPECT_TRUE(isFinite(poses[k]));
   };
   for (double odd : oddNumbers()) {
     for (std::size_t i = 0; i < 27; ++i) {
-      Scene scene = rigScene(generator, 1);
+      PoseScene scene = rigScene(generator, 1);
       (i < 9 ? scene.points : (i < 18 ? scene.bearings : scene.origins))[i / 3 % 3][i % 3] = odd;
       check(scene);
     }
   }
   for (int i = 0; i < 50; ++i) {
-    Scene scene = rigScene(generator, 1);
+    PoseScene scene = rigScene(generator, 1);
     scene.points[1] = scene.points[0];
     check(scene);
     scene.points[2] = scene.points[0];
@@ -236,10 +236,10 @@ TEST(Gp3p, GivesNoNumberThatIsNone) {
 // Central rays have a way of their own; the place where they start counts there, too.
 TEST(Gp3p, GivesNoNumberThatIsNoneWhereRaysStartInOnePlace) {
   Generator generator(12);
-  Poses poses;
+  RigPoses poses;
   for (double odd : oddNumbers()) {
     for (std::size_t i = 0; i < 12; ++i) {
-      Scene scene = rigScene(generator, 1);
+      PoseScene scene = rigScene(generator, 1);
       scene.origins[1] = scene.origins[2] = scene.origins[0] = Vec3d{};
       for (std::size_t k = 0; k < 3; ++k) {
         scene.bearings[k] = (scene.T_camera_world * scene.points[k]).normalized();
@@ -260,9 +260,9 @@ TEST(Gp3p, GivesNoNumberThatIsNoneWhereRaysStartInOnePlace) {
 
 TEST(Gp3p, RefusesOtherSizes) {
   Generator generator(11);
-  const Scene s = rigScene(generator, 1);
+  const PoseScene s = rigScene(generator, 1);
   const Span<const Vec3d> origins(s.origins), bearings(s.bearings), points(s.points);
-  Poses poses;
+  RigPoses poses;
   EXPECT_THROW(gp3p(origins.subspan(1), bearings, points, poses), gslam::ArgumentError);
   EXPECT_THROW(gp3p(origins, bearings.subspan(1), points, poses), gslam::ArgumentError);
   EXPECT_THROW(gp3p(origins, bearings, points.subspan(1), poses), gslam::ArgumentError);

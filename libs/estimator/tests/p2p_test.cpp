@@ -22,7 +22,7 @@ TEST(P2pKnownRotation, FindsThePose) {
   Generator generator(1);
   std::vector<double> errors;
   for (std::size_t i = 0; i < solver_test::instances(); ++i) {
-    const Scene scene = randomScene(generator);
+    const PoseScene scene = randomPoseScene(generator);
     SE3d pose;
     ASSERT_EQ(p2pKnownRotation(two(scene.bearings), two(scene.points),
                                scene.T_camera_world.rotation(), pose),
@@ -38,7 +38,7 @@ TEST(P2pKnownRotation, FindsThePose) {
 TEST(P2pKnownRotation, IsLeastSquares) {
   Generator generator(2);
   for (std::size_t i = 0; i < solver_test::instances(300); ++i) {
-    const Scene scene = randomScene(generator);
+    const PoseScene scene = randomPoseScene(generator);
     const SO3d R = SO3d::exp(0.01 * gslam::randomDirection<double>(generator)) *
                    scene.T_camera_world.rotation();
     SE3d pose;
@@ -64,7 +64,8 @@ TEST(P2pKnownRotation, KeepsItsDigits) {
   for (std::size_t i = 0; i < solver_test::instances(300); ++i) {
     // A narrow bundle: 1 m at 1e4 m.
     const Vec3d off = {{gslam::randomUniform(generator, 0.5, 1.0), 0.3, 0.7}};
-    Scene scene = sceneOf(generator, {Vec3d{{0, 0, 1e4}}, Vec3d{{0, 0, 1e4}} + off, {{0, 0, 1}}});
+    PoseScene scene =
+        sceneOf(generator, {Vec3d{{0, 0, 1e4}}, Vec3d{{0, 0, 1e4}} + off, {{0, 0, 1}}});
     SE3d pose;
     ASSERT_EQ(p2pKnownRotation(two(scene.bearings), two(scene.points),
                                scene.T_camera_world.rotation(), pose),
@@ -87,7 +88,7 @@ TEST(P2pKnownRotation, RefusesWhatHasNoSolution) {
   Generator generator(4);
   SE3d pose;
   for (int i = 0; i < 100; ++i) {
-    Scene scene = randomScene(generator);
+    PoseScene scene = randomPoseScene(generator);
     const SO3d R = scene.T_camera_world.rotation();
     const std::array<Vec3d, 3> seen = scene.bearings;
     scene.bearings[0] = -seen[0];  // behind
@@ -99,7 +100,7 @@ TEST(P2pKnownRotation, RefusesWhatHasNoSolution) {
     scene.points[1] = scene.points[0];  // depths of 0
     EXPECT_EQ(p2pKnownRotation(two(scene.bearings), two(scene.points), R, pose), 0u);
     for (double odd : oddNumbers()) {
-      Scene bad = scene;
+      PoseScene bad = scene;
       (i % 2 == 0 ? bad.points : bad.bearings)[static_cast<std::size_t>(i / 2 % 2)]
                                               [static_cast<std::size_t>(i / 4 % 3)] = odd;
       if (p2pKnownRotation(two(bad.bearings), two(bad.points), R, pose) == 1) {
@@ -111,18 +112,18 @@ TEST(P2pKnownRotation, RefusesWhatHasNoSolution) {
 
 TEST(P2pKnownRotation, RefusesOtherSizes) {
   Generator generator(5);
-  const Scene s = randomScene(generator);
+  const PoseScene s = randomPoseScene(generator);
   SE3d pose;
   EXPECT_THROW(p2pKnownRotation(s.bearings, two(s.points), SO3d(), pose), gslam::ArgumentError);
   EXPECT_THROW(p2pKnownRotation(two(s.bearings), s.points, SO3d(), pose), gslam::ArgumentError);
 }
 
 struct Upright {
-  Scene scene;
+  PoseScene scene;
   Vec3d in_camera, in_world;
 };
 
-Upright uprightOf(const Scene& scene, const Vec3d& gravity_world) {
+Upright uprightOf(const PoseScene& scene, const Vec3d& gravity_world) {
   const Vec3d in_camera = (scene.T_camera_world.rotation() * gravity_world).normalized();
   return {scene, in_camera, gravity_world};
 }
@@ -141,7 +142,8 @@ TEST(P2pKnownVertical, FindsThePose) {
   std::vector<double> errors;
   std::array<SE3d, 2> poses;
   for (std::size_t i = 0; i < solver_test::instances(); ++i) {
-    const Upright u = uprightOf(randomScene(generator), gslam::randomDirection<double>(generator));
+    const Upright u =
+        uprightOf(randomPoseScene(generator), gslam::randomDirection<double>(generator));
     const std::size_t count = p2pKnownVertical(two(u.scene.bearings), two(u.scene.points),
                                                u.in_camera, u.in_world, poses);
     expectSolutions(u, poses, count);
@@ -160,7 +162,7 @@ TEST(P2pKnownVertical, FindsEveryAttitude) {
   const Vec3d in_camera[3] = {{{2, 1, 5}}, {{-1, 2, 6}}, {{0, 0, 1}}};
   for (double tilt : {0.0, 1e-9, 1e-4, 1.0, 3.1415, 3.14159265358979}) {
     for (double heading : {0.0, 1e-9, 1.5, 3.14159265, 3.14159265358979, -2.0}) {
-      Scene scene;
+      PoseScene scene;
       scene.T_camera_world = SE3d(SO3d::exp({{tilt, 0, 0}}) * SO3d::exp({{0, 0, heading}}),
                                   gslam::randomDirection<double>(generator));
       for (std::size_t k = 0; k < 3; ++k) {
@@ -182,7 +184,8 @@ TEST(P2pKnownVertical, FindsEverySolutionThatASearchFinds) {
   std::array<SE3d, 2> poses;
   const double pi = 3.14159265358979;
   for (std::size_t i = 0; i < solver_test::instances(200); ++i) {
-    const Upright u = uprightOf(randomScene(generator), gslam::randomDirection<double>(generator));
+    const Upright u =
+        uprightOf(randomPoseScene(generator), gslam::randomDirection<double>(generator));
     const std::size_t count = p2pKnownVertical(two(u.scene.bearings), two(u.scene.points),
                                                u.in_camera, u.in_world, poses);
     // With the heading known, the rays meet where this triple product vanishes.
@@ -224,7 +227,7 @@ TEST(P2pKnownVertical, GivesNoNumberThatIsNone) {
   };
   for (double odd : oddNumbers()) {
     for (std::size_t i = 0; i < 12; ++i) {
-      Upright u = uprightOf(randomScene(generator), gslam::randomDirection<double>(generator));
+      Upright u = uprightOf(randomPoseScene(generator), gslam::randomDirection<double>(generator));
       const Upright good = u;
       (i < 6 ? u.scene.points : u.scene.bearings)[i / 3 % 2][i % 3] = odd;
       check(u);
@@ -234,7 +237,7 @@ TEST(P2pKnownVertical, GivesNoNumberThatIsNone) {
     }
   }
   for (int i = 0; i < 100; ++i) {
-    Upright u = uprightOf(randomScene(generator), gslam::randomDirection<double>(generator));
+    Upright u = uprightOf(randomPoseScene(generator), gslam::randomDirection<double>(generator));
     Upright same = u;
     same.scene.points[1] = same.scene.points[0];
     EXPECT_EQ(check(same), 0u);
@@ -251,7 +254,8 @@ TEST(P2pKnownVertical, GivesNoNumberThatIsNone) {
 TEST(P2pKnownVertical, TakesDirectionsOfAnyLength) {
   Generator generator(11);
   for (std::size_t i = 0; i < solver_test::instances(300); ++i) {
-    const Upright u = uprightOf(randomScene(generator), gslam::randomDirection<double>(generator));
+    const Upright u =
+        uprightOf(randomPoseScene(generator), gslam::randomDirection<double>(generator));
     std::array<SE3d, 2> poses;
     for (const double scale : {1e-120, 1e-3, 9.81, 1e120}) {
       const std::size_t count =
@@ -275,7 +279,7 @@ TEST(P2pKnownVertical, TakesDirectionsOfAnyLength) {
 
 TEST(P2pKnownVertical, RefusesOtherSizes) {
   Generator generator(10);
-  const Scene s = randomScene(generator);
+  const PoseScene s = randomPoseScene(generator);
   const Vec3d down = {{0, 0, -1}};
   std::array<SE3d, 2> poses;
   EXPECT_THROW(p2pKnownVertical(s.bearings, two(s.points), down, down, poses),

@@ -19,20 +19,20 @@ namespace {
 using namespace absolute_pose;
 using gslam::SO3d;
 using gslam::Span;
-using Poses = std::array<SE3d, 4>;
+using P3pPoses = std::array<SE3d, 4>;
 
-struct Solver {
+struct P3pSolver {
   const char* name;
-  std::size_t (*solve)(Span<const Vec3d>, Span<const Vec3d>, Poses&);
+  std::size_t (*solve)(Span<const Vec3d>, Span<const Vec3d>, P3pPoses&);
   double lost;            // part of random instances
   double flat;            // median error for points within 1e-4 of a line
   double flat_lost;       // part of those
   double symmetric_lost;  // part of isosceles triangles seen from their plane of symmetry
 };
 
-class P3p : public testing::TestWithParam<Solver> {
+class P3p : public testing::TestWithParam<P3pSolver> {
  public:
-  std::size_t solve(const Scene& scene, Poses& poses) const {
+  std::size_t solve(const PoseScene& scene, P3pPoses& poses) const {
     return GetParam().solve(scene.bearings, scene.points, poses);
   }
 
@@ -42,8 +42,8 @@ class P3p : public testing::TestWithParam<Solver> {
     Generator generator(seed);
     std::vector<double> errors;
     for (std::size_t i = 0; i < instances; ++i) {
-      const Scene scene = make(generator);
-      Poses poses;
+      const PoseScene scene = make(generator);
+      P3pPoses poses;
       const std::size_t count = solve(scene, poses);
       for (std::size_t k = 0; k < count; ++k) {
         EXPECT_LT(rayError(poses[k], scene), on_ray) << "instance " << i << " solution " << k;
@@ -54,7 +54,7 @@ class P3p : public testing::TestWithParam<Solver> {
   }
 };
 
-double lostOf(const std::vector<double>& errors, double allowed = 1e-6) {
+double partLost(const std::vector<double>& errors, double allowed = 1e-6) {
   return static_cast<double>(std::count_if(errors.begin(), errors.end(),
                                            [&](double e) { return !(e < allowed); })) /
          static_cast<double>(errors.size());
@@ -62,8 +62,8 @@ double lostOf(const std::vector<double>& errors, double allowed = 1e-6) {
 
 TEST_P(P3p, FindsThePose) {
   const std::vector<double> found =
-      errors(solver_test::instances(), 1, 1e-9, [](Generator& g) { return randomScene(g); });
-  EXPECT_LE(lostOf(found), GetParam().lost);
+      errors(solver_test::instances(), 1, 1e-9, [](Generator& g) { return randomPoseScene(g); });
+  EXPECT_LE(partLost(found), GetParam().lost);
   EXPECT_LT(quantile(found, 0.5), 2e-14);
   EXPECT_LT(quantile(found, 0.99), 2e-12);
 }
@@ -72,7 +72,7 @@ TEST_P(P3p, KeepsItsDigitsForNearlyCollinearPoints) {
   const std::vector<double> found = errors(solver_test::instances(2000), 2, 1e-8,
                                            [](Generator& g) { return flatScene(g, 1e-4); });
   EXPECT_LT(quantile(found, 0.5), GetParam().flat);
-  EXPECT_LE(lostOf(found), GetParam().flat_lost);
+  EXPECT_LE(partLost(found), GetParam().flat_lost);
 }
 
 TEST_P(P3p, GivesOnlySolutionsForCollinearPoints) {
@@ -86,12 +86,12 @@ TEST_P(P3p, LosesNothingToLargeCoordinates) {
   for (std::size_t i = 0; i < solver_test::instances(2000); ++i) {
     const SO3d R = gslam::randomOf<SO3d>(generator);
     const Vec3d centre = {{5e5 + 0.25, 5.4e6 + 0.5, 300}};
-    Scene scene;
+    PoseScene scene;
     for (std::size_t k = 0; k < 3; ++k) {
       scene.points[k] = centre + R.inverse() * inView(generator);
       scene.bearings[k] = (R * (scene.points[k] - centre)).normalized();
     }
-    Poses poses;
+    P3pPoses poses;
     const std::size_t count = solve(scene, poses);
     double turn = 10, place = 1e9;
     for (std::size_t k = 0; k < count; ++k) {
@@ -119,21 +119,21 @@ TEST_P(P3p, FindsAFarCluster) {
   // Rounding of the bearings alone is 1e-12 of the triangle, and 1e-8 of the distance.
   if (std::string(GetParam().name) == "p3p") {
     EXPECT_LT(quantile(found, 0.5), 1e-6);
-    EXPECT_LT(lostOf(found, 1e-3), 0.01);
+    EXPECT_LT(partLost(found, 1e-3), 0.01);
   }
 }
 
 TEST_P(P3p, RefusesPointsBehindTheCamera) {
   Generator generator(6);
   for (std::size_t i = 0; i < solver_test::instances(1000); ++i) {
-    Scene scene = randomScene(generator);
+    PoseScene scene = randomPoseScene(generator);
     const SE3d truth = scene.T_camera_world;
     if (i % 2 == 0) {
       for (Vec3d& bearing : scene.bearings) bearing = -bearing;
     } else {
       scene.bearings[i / 2 % 3] = -scene.bearings[i / 2 % 3];
     }
-    Poses poses;
+    P3pPoses poses;
     const std::size_t count = solve(scene, poses);
     for (std::size_t k = 0; k < count; ++k) {
       EXPECT_LT(rayError(poses[k], scene), 1e-9);
@@ -148,9 +148,9 @@ TEST_P(P3p, SolvesSymmetricTriangles) {
   Generator generator(7);
   for (double distance : {0.3, 0.5, 1.0, 2.0, 3.0}) {
     const double s = std::sqrt(0.75);
-    const Scene scene = sceneOf(
+    const PoseScene scene = sceneOf(
         generator, {Vec3d{{1, 0, distance}}, {{-0.5, s, distance}}, {{-0.5, -s, distance}}});
-    Poses poses;
+    P3pPoses poses;
     const std::size_t count = solve(scene, poses);
     EXPECT_LT(errorOf(poses.data(), count, scene.T_camera_world), 1e-10 * (1 + distance * distance))
         << distance;
@@ -171,7 +171,7 @@ TEST_P(P3p, SolvesIsoscelesTriangles) {
     return sceneOf(g,
                    {Vec3d{{x, 0, z}}, {{-x, 0, z}}, {{0, y, gslam::randomUniform(g, 1.0, 5.0)}}});
   });
-  EXPECT_LE(lostOf(found), GetParam().symmetric_lost);
+  EXPECT_LE(partLost(found), GetParam().symmetric_lost);
 }
 
 // On the cylinder through the points, at right angles to their plane, two solutions fall together.
@@ -189,32 +189,32 @@ TEST_P(P3p, FindsDoubleSolutions) {
     return sceneOf(g, p);
   });
   EXPECT_LT(quantile(found, 0.5), 2e-7);
-  EXPECT_LT(lostOf(found, 1e-3), 0.01);
+  EXPECT_LT(partLost(found, 1e-3), 0.01);
 }
 
 TEST_P(P3p, TakesMinimalCoordinates) {
-  Scene scene;
+  PoseScene scene;
   scene.points = {Vec3d{{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}};
   scene.T_camera_world = SE3d(SO3d(), Vec3d{{0, 0, 1}});
   for (std::size_t i = 0; i < 3; ++i) {
     scene.bearings[i] = (scene.T_camera_world * scene.points[i]).normalized();
   }
-  Poses poses;
+  P3pPoses poses;
   const std::size_t count = solve(scene, poses);
   EXPECT_LT(errorOf(poses.data(), count, scene.T_camera_world), 1e-7);
 }
 
 TEST_P(P3p, GivesNoNumberThatIsNone) {
   Generator generator(9);
-  Poses poses;
-  const auto check = [&](const Scene& scene) {
+  P3pPoses poses;
+  const auto check = [&](const PoseScene& scene) {
     const std::size_t count = solve(scene, poses);
     ASSERT_LE(count, 4u);
     for (std::size_t k = 0; k < count; ++k) EXPECT_TRUE(isFinite(poses[k]));
   };
   for (double odd : oddNumbers()) {
     for (std::size_t i = 0; i < 18; ++i) {
-      Scene scene = randomScene(generator);
+      PoseScene scene = randomPoseScene(generator);
       (i < 9 ? scene.points : scene.bearings)[i / 3 % 3][i % 3] = odd;
       check(scene);
       for (std::size_t k = 0; k < 3; ++k) {
@@ -224,12 +224,12 @@ TEST_P(P3p, GivesNoNumberThatIsNone) {
     }
   }
   for (int i = 0; i < 100; ++i) {
-    Scene scene = randomScene(generator);
+    PoseScene scene = randomPoseScene(generator);
     scene.points[1] = scene.points[0];
     check(scene);
     scene.points[2] = scene.points[0];
     check(scene);
-    scene = randomScene(generator);
+    scene = randomPoseScene(generator);
     scene.bearings[2] = scene.bearings[0];
     check(scene);
     scene.bearings[1] = scene.bearings[0];
@@ -239,8 +239,8 @@ TEST_P(P3p, GivesNoNumberThatIsNone) {
 
 TEST_P(P3p, RefusesOtherSizes) {
   Generator generator(10);
-  const Scene scene = randomScene(generator);
-  Poses poses;
+  const PoseScene scene = randomPoseScene(generator);
+  P3pPoses poses;
   const Span<const Vec3d> bearings(scene.bearings), points(scene.points);
   EXPECT_THROW(GetParam().solve(bearings.subspan(1), points, poses), gslam::ArgumentError);
   EXPECT_THROW(GetParam().solve(bearings, points.subspan(1), poses), gslam::ArgumentError);
@@ -252,7 +252,7 @@ TEST_P(P3p, RefusesOtherSizes) {
 struct AlongFirstRay {
   double m[3], squares[3];  // cosines and squared sides 01, 02, 12
 
-  explicit AlongFirstRay(const Scene& s)
+  explicit AlongFirstRay(const PoseScene& s)
       : m{s.bearings[0].dot(s.bearings[1]), s.bearings[0].dot(s.bearings[2]),
           s.bearings[1].dot(s.bearings[2])},
         squares{(s.points[0] - s.points[1]).squaredNorm(),
@@ -272,8 +272,8 @@ TEST_P(P3p, FindsEverySolutionThatASearchFinds) {
   Generator generator(11);
   std::size_t searched = 0;
   for (std::size_t i = 0; i < solver_test::instances(100); ++i) {
-    const Scene scene = randomScene(generator);
-    Poses poses;
+    const PoseScene scene = randomPoseScene(generator);
+    P3pPoses poses;
     const std::size_t count = solve(scene, poses);
     const AlongFirstRay function(scene);
     const double reach =
@@ -314,8 +314,8 @@ TEST_P(P3p, FindsWhatOpenCvFinds) {
   Generator generator(12);
   std::size_t found = 0, missed = 0;
   for (std::size_t i = 0; i < solver_test::instances(300); ++i) {
-    const Scene scene = randomScene(generator);
-    Poses poses;
+    const PoseScene scene = randomPoseScene(generator);
+    P3pPoses poses;
     const std::size_t count = solve(scene, poses);
     std::vector<cv::Point3d> points;
     std::vector<cv::Point2d> pixels;
@@ -342,12 +342,11 @@ TEST_P(P3p, FindsWhatOpenCvFinds) {
 }
 #endif
 
-INSTANTIATE_TEST_SUITE_P(Solvers, P3p,
-                         testing::Values(Solver{"p3p", gslam::p3p, 0, 1e-10, 0.001, 0},
-                                         Solver{"kneip", gslam::p3pKneip, 0.00033, 1e-10, 0.001, 0},
-                                         Solver{"gao", gslam::p3pGao, 0.0031, 1e-10, 0.02, 0.01}),
-                         [](const testing::TestParamInfo<Solver>& solver) {
-                           return std::string(solver.param.name);
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Solvers, P3p,
+    testing::Values(P3pSolver{"p3p", gslam::p3p, 0, 1e-10, 0.001, 0},
+                    P3pSolver{"kneip", gslam::p3pKneip, 0.00033, 1e-10, 0.001, 0},
+                    P3pSolver{"gao", gslam::p3pGao, 0.0031, 1e-10, 0.02, 0.01}),
+    [](const testing::TestParamInfo<P3pSolver>& solver) { return std::string(solver.param.name); });
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace {
 using namespace gslam;
 using namespace solver_test;
 
-double distance(const Vec4d& plane, const Vec3d& p) {
+double distanceFrom(const Vec4d& plane, const Vec3d& p) {
   return plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] + plane[3];
 }
 
@@ -35,7 +35,7 @@ TEST(PlaneFromPoints, FindsTheTruth) {
       lost += !(normal.cross(plane.segment<3>(0)).norm() < 1e-6);
       EXPECT_NEAR(plane.segment<3>(0).norm(), 1, 1e-14);
       EXPECT_GE(plane[3], 0);
-      for (const Vec3d& p : points) EXPECT_NEAR(distance(plane, p), 0, 1e-10);
+      for (const Vec3d& p : points) EXPECT_NEAR(distanceFrom(plane, p), 0, 1e-10);
     }
     EXPECT_LE(lost, count / 10000) << n;
   }
@@ -50,7 +50,7 @@ TEST(PlaneFromPoints, IsLeastSquares) {
     ASSERT_EQ(planeFromPoints(points, plane), 1u);
     const auto cost = [&](const Vec4d& q) {
       double sum = 0;
-      for (const Vec3d& p : points) sum += distance(q, p) * distance(q, p);
+      for (const Vec3d& p : points) sum += distanceFrom(q, p) * distanceFrom(q, p);
       return sum / q.segment<3>(0).squaredNorm();
     };
     for (int k = 0; k < 100; ++k) {

@@ -34,7 +34,7 @@ using gslam::Span;
 using gslam::Vec;
 using gslam::Vec3d;
 
-enum class Scene {
+enum class PointLayout {
   kBox,         // 4 m wide, 6 m away
   kPlanar,      // 4 m wide, 6 m away, any slope
   kNearPlanar,  // the same, 1 mm thick
@@ -46,11 +46,12 @@ enum class Scene {
   kCubic,       // on a twisted cubic through the camera, where the relaxed problem is singular
   kUtm          // the box, 1000 km from the origin of the world
 };
-const Scene kScenes[] = {Scene::kBox,     Scene::kPlanar, Scene::kNearPlanar, Scene::kFar,
-                         Scene::kFarHalf, Scene::kWide,   Scene::kNearLine,   Scene::kOffAxis,
-                         Scene::kCubic,   Scene::kUtm};
+const PointLayout kLayouts[] = {
+    PointLayout::kBox,     PointLayout::kPlanar, PointLayout::kNearPlanar, PointLayout::kFar,
+    PointLayout::kFarHalf, PointLayout::kWide,   PointLayout::kNearLine,   PointLayout::kOffAxis,
+    PointLayout::kCubic,   PointLayout::kUtm};
 
-const char* nameOf(Scene scene) {
+const char* nameOf(PointLayout scene) {
   static const char* const kNames[] = {"box",  "planar",      "near planar", "far",   "far half",
                                        "wide", "near a line", "off axis",    "cubic", "UTM"};
   return kNames[static_cast<int>(scene)];
@@ -62,37 +63,37 @@ struct Instance {
 };
 
 // A point in camera coordinates, with the directions of the scene.
-Vec3d randomPoint(std::mt19937& generator, Scene scene, const SO3d& slope, bool is_far) {
+Vec3d randomPointIn(std::mt19937& generator, PointLayout scene, const SO3d& slope, bool is_far) {
   const auto within = [&](double reach) {
     return gslam::randomUniform<double>(generator, -reach, reach);
   };
   const Vec3d centre = {0, 0, 6};
   switch (scene) {
-    case Scene::kPlanar:
+    case PointLayout::kPlanar:
       return centre + slope * Vec3d{within(2), within(2), 0};
-    case Scene::kNearPlanar:
+    case PointLayout::kNearPlanar:
       return centre + slope * Vec3d{within(2), within(2), within(1e-3)};
-    case Scene::kNearLine:
+    case PointLayout::kNearLine:
       return centre + slope * Vec3d{within(2), within(2e-4), within(2e-4)};
-    case Scene::kFar:
+    case PointLayout::kFar:
       return {within(1), within(1), 1e4 + within(1)};
-    case Scene::kWide: {
+    case PointLayout::kWide: {
       Vec3d direction;
       do direction = gslam::randomDirection<double>(generator);
       while (direction[2] < -0.5);
       return gslam::randomUniform<double>(generator, 2, 8) * direction;
     }
-    case Scene::kOffAxis:
+    case PointLayout::kOffAxis:
       return {1.5 + within(0.5), 1.5 + within(0.5), 6 + within(2)};
-    case Scene::kCubic: {
+    case PointLayout::kCubic: {
       const double s = gslam::randomUniform<double>(generator, 0.5, 2);
       return {s * s, s * s * s / 2, 3 * s};
     }
-    case Scene::kFarHalf:
+    case PointLayout::kFarHalf:
       if (is_far) return {within(1), within(1), 1e4 + within(1)};
       break;
-    case Scene::kBox:
-    case Scene::kUtm:
+    case PointLayout::kBox:
+    case PointLayout::kUtm:
       break;
   }
   return {within(2), within(2), 6 + within(2)};
@@ -100,15 +101,15 @@ Vec3d randomPoint(std::mt19937& generator, Scene scene, const SO3d& slope, bool 
 
 // `rig` is how far from the middle of the rig the rays start, `noise` the standard deviation of the
 // bearings in radians.
-Instance makeInstance(std::mt19937& generator, std::size_t n, Scene scene, double noise = 0,
+Instance makeInstance(std::mt19937& generator, std::size_t n, PointLayout scene, double noise = 0,
                       double rig = 0) {
   Instance instance;
-  const double reach = scene == Scene::kUtm ? 1e6 : 5;
+  const double reach = scene == PointLayout::kUtm ? 1e6 : 5;
   const SE3d T_world_camera = gslam::randomOf<SE3d>(generator, reach);
   instance.truth = T_world_camera.inverse();
   const SO3d slope = gslam::randomOf<SO3d>(generator);
   for (std::size_t i = 0; i < n; ++i) {
-    const Vec3d point = randomPoint(generator, scene, slope, i >= n / 2);
+    const Vec3d point = randomPointIn(generator, scene, slope, i >= n / 2);
     const Vec3d origin = rig * gslam::randomDirection<double>(generator);
     const Vec3d direction = (point - origin).normalized();
     const Vec3d error = noise * gslam::randomNormal<double, 3>(generator);
@@ -206,19 +207,19 @@ SE3d refined(const Instance& instance, SE3d T, int iterations = 12) {
   return T;
 }
 
-enum class Solver { kSqpnp, kEpnp, kGpnp };
+enum class PnpSolver { kSqpnp, kEpnp, kGpnp };
 
-std::vector<SE3d> solve(Solver solver, const Instance& instance) {
+std::vector<SE3d> solve(PnpSolver solver, const Instance& instance) {
   std::array<SE3d, 4> poses;
   std::size_t count = 0;
   switch (solver) {
-    case Solver::kSqpnp:
+    case PnpSolver::kSqpnp:
       count = gslam::sqpnp(instance.bearings, instance.points, poses);
       break;
-    case Solver::kEpnp:
+    case PnpSolver::kEpnp:
       count = gslam::epnp(instance.bearings, instance.points, poses[0]);
       break;
-    case Solver::kGpnp:
+    case PnpSolver::kGpnp:
       count = gslam::gpnp(instance.origins, instance.bearings, instance.points, poses);
       break;
   }
@@ -227,7 +228,8 @@ std::vector<SE3d> solve(Solver solver, const Instance& instance) {
 }
 
 // Of exact data: parts that lost the truth; every solution must go through the points.
-double lostPart(Solver solver, std::size_t n, Scene scene, std::size_t instances, double rig = 0) {
+double lostPart(PnpSolver solver, std::size_t n, PointLayout scene, std::size_t instances,
+                double rig = 0) {
   std::mt19937 generator(17);
   std::size_t lost = 0;
   for (std::size_t i = 0; i < instances; ++i) {
@@ -251,84 +253,86 @@ class Pnp : public testing::TestWithParam<std::size_t> {};  // the number of poi
 TEST_P(Pnp, SqpnpFindsTheTruth) {
   const std::size_t n = GetParam();
   const std::size_t count = solver_test::instances(n == 100 ? 100 : 500);
-  for (const Scene scene : kScenes) {
-    const bool is_hard = n == 3 && (scene == Scene::kNearLine || scene == Scene::kFarHalf);
-    EXPECT_LE(lostPart(Solver::kSqpnp, n, scene, count), is_hard  ? 0.01
-                                                         : n == 3 ? 0.001
-                                                                  : 0)
+  for (const PointLayout scene : kLayouts) {
+    const bool is_hard =
+        n == 3 && (scene == PointLayout::kNearLine || scene == PointLayout::kFarHalf);
+    EXPECT_LE(lostPart(PnpSolver::kSqpnp, n, scene, count), is_hard  ? 0.01
+                                                            : n == 3 ? 0.001
+                                                                     : 0)
         << nameOf(scene) << ", " << n << " points";
   }
 }
 
 TEST(Sqpnp, LosesFewOfThreePoints) {
-  EXPECT_LE(lostPart(Solver::kSqpnp, 3, Scene::kBox, solver_test::instances()), 2e-4);
+  EXPECT_LE(lostPart(PnpSolver::kSqpnp, 3, PointLayout::kBox, solver_test::instances()), 2e-4);
 }
 
 TEST(Sqpnp, LosesNoneOfFourPoints) {
-  EXPECT_EQ(0, lostPart(Solver::kSqpnp, 4, Scene::kBox, solver_test::instances()));
+  EXPECT_EQ(0, lostPart(PnpSolver::kSqpnp, 4, PointLayout::kBox, solver_test::instances()));
 }
 
 TEST(Sqpnp, LosesNoneOfSixPoints) {
-  EXPECT_EQ(0, lostPart(Solver::kSqpnp, 6, Scene::kBox, solver_test::instances()));
+  EXPECT_EQ(0, lostPart(PnpSolver::kSqpnp, 6, PointLayout::kBox, solver_test::instances()));
 }
 
 TEST(Sqpnp, LosesNoPlane) {
-  EXPECT_EQ(0, lostPart(Solver::kSqpnp, 6, Scene::kPlanar, solver_test::instances()));
+  EXPECT_EQ(0, lostPart(PnpSolver::kSqpnp, 6, PointLayout::kPlanar, solver_test::instances()));
 }
 
 TEST_P(Pnp, EpnpFindsTheTruth) {
   const std::size_t n = GetParam();
   if (n < 4) return;
   const std::size_t count = solver_test::instances(n == 100 ? 100 : n < 6 ? 200 : 400);
-  for (const Scene scene : kScenes) {
+  for (const PointLayout scene : kLayouts) {
     double bound = 0;
-    if (n == 4) bound = scene == Scene::kNearLine ? 0.02 : scene == Scene::kCubic ? 0.1 : 0.005;
-    if (n == 5) bound = scene == Scene::kNearLine || scene == Scene::kCubic ? 0.01 : 0;
-    if (scene == Scene::kPlanar) bound = 0;
-    EXPECT_LE(lostPart(Solver::kEpnp, n, scene, count), bound)
+    if (n == 4)
+      bound = scene == PointLayout::kNearLine ? 0.02 : scene == PointLayout::kCubic ? 0.1 : 0.005;
+    if (n == 5) bound = scene == PointLayout::kNearLine || scene == PointLayout::kCubic ? 0.01 : 0;
+    if (scene == PointLayout::kPlanar) bound = 0;
+    EXPECT_LE(lostPart(PnpSolver::kEpnp, n, scene, count), bound)
         << nameOf(scene) << ", " << n << " points";
   }
 }
 
 TEST(Epnp, LosesNoneOfSixPoints) {
-  EXPECT_EQ(0, lostPart(Solver::kEpnp, 6, Scene::kBox, solver_test::instances()));
+  EXPECT_EQ(0, lostPart(PnpSolver::kEpnp, 6, PointLayout::kBox, solver_test::instances()));
 }
 
 TEST(Epnp, LosesNoPlane) {
-  EXPECT_EQ(0, lostPart(Solver::kEpnp, 4, Scene::kPlanar, solver_test::instances()));
+  EXPECT_EQ(0, lostPart(PnpSolver::kEpnp, 4, PointLayout::kPlanar, solver_test::instances()));
 }
 
 TEST_P(Pnp, GpnpFindsTheTruth) {
   const std::size_t n = GetParam();
   if (n < 4) return;
   const std::size_t count = solver_test::instances(n == 100 ? 100 : 400);
-  for (const Scene scene : kScenes) {
+  for (const PointLayout scene : kLayouts) {
     double bound = n <= 5 ? 0.003 : 0;
-    if (scene == Scene::kNearLine) bound = n <= 5 ? 0.05 : 0.005;
-    if (scene == Scene::kPlanar) bound = 0;
-    EXPECT_LE(lostPart(Solver::kGpnp, n, scene, count, 0.5), bound)
+    if (scene == PointLayout::kNearLine) bound = n <= 5 ? 0.05 : 0.005;
+    if (scene == PointLayout::kPlanar) bound = 0;
+    EXPECT_LE(lostPart(PnpSolver::kGpnp, n, scene, count, 0.5), bound)
         << nameOf(scene) << ", " << n << " points";
   }
 }
 
 TEST(Gpnp, LosesFewOfFourPoints) {
-  EXPECT_LE(lostPart(Solver::kGpnp, 4, Scene::kBox, solver_test::instances(), 0.5), 5e-4);
+  EXPECT_LE(lostPart(PnpSolver::kGpnp, 4, PointLayout::kBox, solver_test::instances(), 0.5), 5e-4);
 }
 
 TEST(Gpnp, LosesNoneOfTenPoints) {
-  EXPECT_EQ(0, lostPart(Solver::kGpnp, 10, Scene::kBox, solver_test::instances(), 0.5));
+  EXPECT_EQ(0, lostPart(PnpSolver::kGpnp, 10, PointLayout::kBox, solver_test::instances(), 0.5));
 }
 
 TEST(Gpnp, LosesNoPlane) {
-  EXPECT_EQ(0, lostPart(Solver::kGpnp, 6, Scene::kPlanar, solver_test::instances(), 0.5));
+  EXPECT_EQ(0, lostPart(PnpSolver::kGpnp, 6, PointLayout::kPlanar, solver_test::instances(), 0.5));
 }
 
 TEST(Gpnp, SolvesCentralAndNearlyCentralRigs) {
   for (const double rig : {0.0, 1e-12, 1e-9, 1e-6, 1e-3}) {
-    for (const Scene scene : {Scene::kBox, Scene::kPlanar, Scene::kWide}) {
+    for (const PointLayout scene : {PointLayout::kBox, PointLayout::kPlanar, PointLayout::kWide}) {
       for (const std::size_t n : {4u, 6u, 10u}) {
-        EXPECT_LE(lostPart(Solver::kGpnp, n, scene, solver_test::instances(200), rig),
-                  n == 4 && scene != Scene::kPlanar ? 0.005 : 0)
+        EXPECT_LE(lostPart(PnpSolver::kGpnp, n, scene, solver_test::instances(200), rig),
+                  n == 4 && scene != PointLayout::kPlanar ? 0.005 : 0)
             << nameOf(scene) << ", " << n << " points, rig of " << rig;
       }
     }
@@ -338,11 +342,11 @@ TEST(Gpnp, SolvesCentralAndNearlyCentralRigs) {
 TEST(Gpnp, TakesRigsWhoseOriginIsFarOff) {
   std::mt19937 generator(5);
   for (std::size_t i = 0; i < solver_test::instances(300); ++i) {
-    Instance instance = makeInstance(generator, 8, Scene::kBox, 0, 0.5);
+    Instance instance = makeInstance(generator, 8, PointLayout::kBox, 0, 0.5);
     const Vec3d shift = 1000.0 * gslam::randomDirection<double>(generator);
     for (Vec3d& origin : instance.origins) origin += shift;
     instance.truth = SE3d(SO3d(), shift) * instance.truth;
-    const std::vector<SE3d> poses = solve(Solver::kGpnp, instance);
+    const std::vector<SE3d> poses = solve(PnpSolver::kGpnp, instance);
     ASSERT_EQ(1u, poses.size());
     EXPECT_LT(difference(poses[0], instance.truth), 1e-9);
   }
@@ -352,8 +356,8 @@ TEST(Sqpnp, GivesAllPosesOfThreePoints) {
   std::mt19937 generator(9);
   std::array<std::size_t, 5> counts{};
   for (std::size_t i = 0; i < solver_test::instances(1000); ++i) {
-    const Instance instance = makeInstance(generator, 3, Scene::kBox);
-    const std::vector<SE3d> poses = solve(Solver::kSqpnp, instance);
+    const Instance instance = makeInstance(generator, 3, PointLayout::kBox);
+    const std::vector<SE3d> poses = solve(PnpSolver::kSqpnp, instance);
     ++counts[poses.size()];
     for (const SE3d& T : poses) EXPECT_LT(costOf(instance, T), 1e-15);
     for (std::size_t a = 0; a < poses.size(); ++a) {
@@ -367,7 +371,8 @@ TEST(Sqpnp, GivesAllPosesOfThreePoints) {
 
 // With noise of a pixel and of ten the cost must not be above that of the minimum next to the
 // truth, nor of the minima next to some random poses.
-void expectGlobalMinimum(Solver solver, std::size_t n, Scene scene, double noise, double rig) {
+void expectGlobalMinimum(PnpSolver solver, std::size_t n, PointLayout scene, double noise,
+                         double rig) {
   std::mt19937 generator(23);
   std::size_t worse = 0;
   const std::size_t count = solver_test::instances(n > 6 ? 6 : 20);
@@ -389,9 +394,10 @@ void expectGlobalMinimum(Solver solver, std::size_t n, Scene scene, double noise
 TEST_P(Pnp, SqpnpFindsTheGlobalMinimum) {
   const std::size_t n = std::min<std::size_t>(GetParam(), 20);
   if (n < 4) return;
-  for (const Scene scene : {Scene::kBox, Scene::kPlanar, Scene::kNearPlanar, Scene::kWide}) {
+  for (const PointLayout scene :
+       {PointLayout::kBox, PointLayout::kPlanar, PointLayout::kNearPlanar, PointLayout::kWide}) {
     for (const double noise : {1e-3, 1e-2}) {
-      expectGlobalMinimum(Solver::kSqpnp, n, scene, noise, 0);
+      expectGlobalMinimum(PnpSolver::kSqpnp, n, scene, noise, 0);
     }
   }
 }
@@ -399,18 +405,19 @@ TEST_P(Pnp, SqpnpFindsTheGlobalMinimum) {
 TEST_P(Pnp, GpnpFindsTheGlobalMinimum) {
   const std::size_t n = std::min<std::size_t>(GetParam(), 20);
   if (n < 4) return;
-  for (const Scene scene : {Scene::kBox, Scene::kPlanar, Scene::kWide}) {
-    expectGlobalMinimum(Solver::kGpnp, n, scene, 1e-3, 0.5);
+  for (const PointLayout scene : {PointLayout::kBox, PointLayout::kPlanar, PointLayout::kWide}) {
+    expectGlobalMinimum(PnpSolver::kGpnp, n, scene, 1e-3, 0.5);
   }
 }
 
 TEST(Epnp, FindsTheMinimum) {
   std::mt19937 generator(29);
   std::size_t worse = 0, all = 0;
-  for (const Scene scene : {Scene::kBox, Scene::kPlanar, Scene::kNearPlanar, Scene::kWide}) {
+  for (const PointLayout scene :
+       {PointLayout::kBox, PointLayout::kPlanar, PointLayout::kNearPlanar, PointLayout::kWide}) {
     for (std::size_t i = 0; i < solver_test::instances(40); ++i, ++all) {
       const Instance instance = makeInstance(generator, 10, scene, 1e-3);
-      const std::vector<SE3d> poses = solve(Solver::kEpnp, instance);
+      const std::vector<SE3d> poses = solve(PnpSolver::kEpnp, instance);
       ASSERT_EQ(1u, poses.size());
       const double least = costOf(instance, refined(instance, instance.truth));
       if (!(costOf(instance, poses[0]) < (1 + 1e-6) * least)) ++worse;
@@ -424,14 +431,14 @@ TEST(Sqpnp, GivesBothPosesOfAPlaneSeenFromAfar) {
   std::size_t twofold = 0;
   const std::size_t count = solver_test::instances(300);
   for (std::size_t i = 0; i < count; ++i) {
-    Instance instance = makeInstance(generator, 8, Scene::kPlanar);
+    Instance instance = makeInstance(generator, 8, PointLayout::kPlanar);
     // 20 m farther off, with the same noise as before: a plane of 4 m.
     for (std::size_t k = 0; k < 8; ++k) {
       const Vec3d p = instance.truth * instance.points[k] + Vec3d{0, 0, 20};
       const Vec3d error = 1e-3 * gslam::randomNormal<double, 3>(generator);
       instance.bearings[k] = (p.normalized() + error).normalized();
     }
-    const std::vector<SE3d> poses = solve(Solver::kSqpnp, instance);
+    const std::vector<SE3d> poses = solve(PnpSolver::kSqpnp, instance);
     ASSERT_FALSE(poses.empty());
     double last_cost = 0;
     for (const SE3d& T : poses) {
@@ -459,8 +466,8 @@ TEST(PnpSolvers, RefusesSizes) {
 }
 
 void expectFinite(const Instance& instance) {
-  for (const Solver solver : {Solver::kSqpnp, Solver::kEpnp, Solver::kGpnp}) {
-    if (instance.points.size() < 4 && solver != Solver::kSqpnp) continue;
+  for (const PnpSolver solver : {PnpSolver::kSqpnp, PnpSolver::kEpnp, PnpSolver::kGpnp}) {
+    if (instance.points.size() < 4 && solver != PnpSolver::kSqpnp) continue;
     for (const SE3d& T : solve(solver, instance)) {
       for (int i = 0; i < 4; ++i) EXPECT_TRUE(std::isfinite(T.rotation().data()[i]));
       for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(std::isfinite(T.translation()[i]));
@@ -483,8 +490,8 @@ TEST(PnpSolvers, SurvivesAbsurdInput) {
   for (const std::size_t n : {3u, 4u, 5u, 6u, 9u}) {
     for (const double value : kAbsurd) {
       for (int which = 0; which < 60; ++which) {
-        Instance instance =
-            makeInstance(generator, n, which % 2 ? Scene::kBox : Scene::kPlanar, 1e-3, 0.1);
+        Instance instance = makeInstance(
+            generator, n, which % 2 ? PointLayout::kBox : PointLayout::kPlanar, 1e-3, 0.1);
         std::vector<Vec3d>* const kinds[] = {&instance.origins, &instance.bearings,
                                              &instance.points};
         std::vector<Vec3d>& kind = *kinds[which % 3];
@@ -501,19 +508,19 @@ TEST(PnpSolvers, SurvivesAbsurdInput) {
 TEST(PnpSolvers, GivesNothingWithoutAPose) {
   std::mt19937 generator(41);
   for (const std::size_t n : {4u, 6u, 10u}) {
-    Instance equal = makeInstance(generator, n, Scene::kBox);
+    Instance equal = makeInstance(generator, n, PointLayout::kBox);
     for (Vec3d& point : equal.points) point = equal.points[0];
-    Instance line = makeInstance(generator, n, Scene::kBox);
+    Instance line = makeInstance(generator, n, PointLayout::kBox);
     for (std::size_t i = 0; i < n; ++i) {
       line.points[i] = line.points[0] + static_cast<double>(i) * Vec3d{1, 2, 4};
       line.bearings[i] = (line.truth * line.points[i]).normalized();
     }
-    Instance parallel = makeInstance(generator, n, Scene::kBox);
+    Instance parallel = makeInstance(generator, n, PointLayout::kBox);
     for (Vec3d& bearing : parallel.bearings) bearing = {0, 0, 1};
-    Instance none = makeInstance(generator, n, Scene::kBox);
+    Instance none = makeInstance(generator, n, PointLayout::kBox);
     for (Vec3d& bearing : none.bearings) bearing = {0, 0, 0};
     for (const Instance* instance : {&equal, &line, &parallel, &none}) {
-      for (const Solver solver : {Solver::kSqpnp, Solver::kEpnp, Solver::kGpnp}) {
+      for (const PnpSolver solver : {PnpSolver::kSqpnp, PnpSolver::kEpnp, PnpSolver::kGpnp}) {
         EXPECT_TRUE(solve(solver, *instance).empty()) << n;
       }
     }
@@ -532,7 +539,7 @@ TEST(PnpSolvers, SolvesMinimalCoordinates) {
       instance.bearings.push_back((truth * points[i]).normalized());
       instance.origins.push_back({0, 0, 0});
     }
-    for (const Solver solver : {Solver::kSqpnp, Solver::kEpnp, Solver::kGpnp}) {
+    for (const PnpSolver solver : {PnpSolver::kSqpnp, PnpSolver::kEpnp, PnpSolver::kGpnp}) {
       const std::vector<SE3d> poses = solve(solver, instance);
       ASSERT_EQ(1u, poses.size());
       EXPECT_LT(difference(poses[0], truth), 1e-12);
@@ -571,12 +578,12 @@ bool solveOpenCv(const Instance& instance, int method, SE3d* pose) {
 TEST(Sqpnp, IsNoWorseThanOpenCv) {
   std::mt19937 generator(43);
   for (const std::size_t n : {4u, 6u, 20u}) {
-    for (const Scene scene : {Scene::kBox, Scene::kPlanar}) {
+    for (const PointLayout scene : {PointLayout::kBox, PointLayout::kPlanar}) {
       for (std::size_t i = 0; i < solver_test::instances(100); ++i) {
         const Instance instance = makeInstance(generator, n, scene, 1e-3);
         SE3d theirs;
         if (!solveOpenCv(instance, cv::SOLVEPNP_SQPNP, &theirs)) continue;
-        const std::vector<SE3d> poses = solve(Solver::kSqpnp, instance);
+        const std::vector<SE3d> poses = solve(PnpSolver::kSqpnp, instance);
         ASSERT_FALSE(poses.empty());
         // Their cost is another one, by the image plane: its minimum is above ours in ours.
         EXPECT_LE(costOf(instance, poses[0]), costOf(instance, theirs) * (1 + 1e-6));
@@ -589,11 +596,11 @@ TEST(Epnp, IsRightWhereOpenCvIsNot) {
   std::mt19937 generator(47);
   std::size_t ours_lost = 0, theirs_lost = 0;
   for (std::size_t i = 0; i < solver_test::instances(300); ++i) {
-    const Instance instance = makeInstance(generator, 6, Scene::kPlanar);
+    const Instance instance = makeInstance(generator, 6, PointLayout::kPlanar);
     SE3d theirs;
     const bool is_solved = solveOpenCv(instance, cv::SOLVEPNP_EPNP, &theirs);
     if (!is_solved || difference(theirs, instance.truth) > 1e-6) ++theirs_lost;
-    const std::vector<SE3d> poses = solve(Solver::kEpnp, instance);
+    const std::vector<SE3d> poses = solve(PnpSolver::kEpnp, instance);
     if (poses.empty() || difference(poses[0], instance.truth) > 1e-6) ++ours_lost;
   }
   EXPECT_EQ(0u, ours_lost);
@@ -604,7 +611,7 @@ TEST(Epnp, IsRightWhereOpenCvIsNot) {
 #ifdef GSLAM_HAS_OPENGV
 TEST(Gpnp, IsNoWorseThanOpenGv) {
   std::mt19937 generator(53);
-  for (const Scene scene : {Scene::kBox, Scene::kPlanar}) {
+  for (const PointLayout scene : {PointLayout::kBox, PointLayout::kPlanar}) {
     for (std::size_t i = 0; i < solver_test::instances(30); ++i) {
       const Instance instance = makeInstance(generator, 10, scene, 1e-3, 0.5);
       opengv::bearingVectors_t bearings;
@@ -624,7 +631,7 @@ TEST(Gpnp, IsNoWorseThanOpenGv) {
                                                                rotations);
       opengv::transformations_t theirs = opengv::absolute_pose::upnp(adapter);
       theirs.push_back(opengv::absolute_pose::gpnp(adapter));
-      const std::vector<SE3d> poses = solve(Solver::kGpnp, instance);
+      const std::vector<SE3d> poses = solve(PnpSolver::kGpnp, instance);
       ASSERT_FALSE(poses.empty());
       for (const opengv::transformation_t& T : theirs) {
         Mat3d m;

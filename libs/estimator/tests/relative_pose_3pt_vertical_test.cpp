@@ -9,9 +9,9 @@ namespace {
 using namespace gslam;
 using namespace solver_test;
 
-using Poses = std::array<SE3d, 4>;
+using VerticalPoses = std::array<SE3d, 4>;
 
-struct Scene {
+struct VerticalScene {
   SE3d T_second_first;  // |t| = 1 but for `baseline`
   Vec3d gravity_first, gravity_second;
   std::vector<Vec3d> points, first, second;
@@ -32,8 +32,8 @@ struct Scene {
 
 // Any turn, points all around.
 template <class Generator>
-Scene randomScene(Generator& generator, double baseline = 1, double reach = 5) {
-  Scene s;
+VerticalScene randomVerticalScene(Generator& generator, double baseline = 1, double reach = 5) {
+  VerticalScene s;
   s.T_second_first = SE3d(randomOf<SO3d>(generator), baseline * randomDirection<double>(generator));
   s.gravity_first = randomDirection<double>(generator);
   s.points = randomPoints<3>(generator, 3, reach);
@@ -41,17 +41,16 @@ Scene randomScene(Generator& generator, double baseline = 1, double reach = 5) {
   return s;
 }
 
-double leastDifference(const Poses& poses, std::size_t count, const SE3d& truth) {
+double leastDifference(const VerticalPoses& poses, std::size_t count, const SE3d& truth) {
   double least = kInf;
   for (std::size_t i = 0; i < count; ++i) {
-    const SE3d& t = poses[i];
-    least = std::fmin(least, (t.rotation().inverse() * truth.rotation()).angle() +
-                                 (t.translation() - truth.translation()).norm());
+    least = std::fmin(least, poseError(poses[i], truth));
   }
   return least;
 }
 
-void expectValid(const Poses& poses, std::size_t count, const Scene& s, double tolerance) {
+void expectValid(const VerticalPoses& poses, std::size_t count, const VerticalScene& s,
+                 double tolerance) {
   for (std::size_t i = 0; i < count; ++i) {
     const SE3d& t = poses[i];
     ASSERT_TRUE(isFinite(t)) << t;
@@ -74,8 +73,8 @@ TEST(RelativePose3ptVertical, FindsTheTruth) {
   std::size_t lost = 0;
   std::size_t all = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const Scene s = randomScene(generator);
-    Poses poses;
+    const VerticalScene s = randomVerticalScene(generator);
+    VerticalPoses poses;
     const std::size_t found =
         relativePose3ptVertical(s.first, s.second, s.gravity_first, s.gravity_second, poses);
     expectValid(poses, found, s, 1e-9);
@@ -95,11 +94,11 @@ TEST(RelativePose3ptVertical, FindsTheTruthAtSpecialMotions) {
       for (const double angle : {0.0, 0.1, 1.5707963267948966, 3.1415926535897931}) {
         std::size_t lost = 0;
         for (int i = 0; i < 100; ++i) {
-          Scene s = randomScene(generator);
+          VerticalScene s = randomVerticalScene(generator);
           s.gravity_first = gravity;
           s.T_second_first = SE3d(SO3d::exp(angle * gravity), motion);
           s.project();
-          Poses poses;
+          VerticalPoses poses;
           const std::size_t found =
               relativePose3ptVertical(s.first, s.second, s.gravity_first, s.gravity_second, poses);
           expectValid(poses, found, s, 1e-8);
@@ -116,8 +115,8 @@ TEST(RelativePose3ptVertical, KeepsDigitsOfSmallBaselines) {
   for (const double baseline : {1e-2, 1e-4}) {
     std::size_t lost = 0;
     for (std::size_t i = 0; i < 1000; ++i) {
-      const Scene s = randomScene(generator, baseline);
-      Poses poses;
+      const VerticalScene s = randomVerticalScene(generator, baseline);
+      VerticalPoses poses;
       const std::size_t found =
           relativePose3ptVertical(s.first, s.second, s.gravity_first, s.gravity_second, poses);
       lost += !(leastDifference(poses, found, s.truth()) < 1e-6);
@@ -130,13 +129,13 @@ TEST(RelativePose3ptVertical, KeepsDigitsOfSmallBaselines) {
 TEST(RelativePose3ptVertical, SurvivesDegenerateSets) {
   std::mt19937 generator(4);
   for (int i = 0; i < 2000; ++i) {
-    Scene s = randomScene(generator, i % 5 == 0 ? 0 : 1);
+    VerticalScene s = randomVerticalScene(generator, i % 5 == 0 ? 0 : 1);
     if (i % 5 == 1) s.points[2] = s.points[1];
     if (i % 5 == 2) s.points[2] = 0.5 * (s.points[0] + s.points[1]);
     if (i % 5 == 3) s.points[0] = 3 * s.gravity_first;
     if (i % 5 == 4) s.points[0] = s.points[1] = s.points[2] = s.gravity_first;
     s.project();
-    Poses poses;
+    VerticalPoses poses;
     const std::size_t found =
         relativePose3ptVertical(s.first, s.second, s.gravity_first, s.gravity_second, poses);
     expectValid(poses, found, s, 1e-7);
@@ -150,12 +149,12 @@ TEST(RelativePose3ptVertical, IsNeverNan) {
   std::mt19937 generator(5);
   for (const double value : absurdValues()) {
     for (std::size_t at = 0; at < 24; ++at) {
-      Scene s = randomScene(generator);
+      VerticalScene s = randomVerticalScene(generator);
       if (at < 9) s.first[at / 3][at % 3] = value;
       if (at >= 9 && at < 18) s.second[at / 3 - 3][at % 3] = value;
       if (at >= 18 && at < 21) s.gravity_first[at - 18] = value;
       if (at >= 21) s.gravity_second[at - 21] = value;
-      Poses poses;
+      VerticalPoses poses;
       std::size_t found =
           relativePose3ptVertical(s.first, s.second, s.gravity_first, s.gravity_second, poses);
       for (std::size_t i = 0; i < found; ++i) EXPECT_TRUE(isFinite(poses[i])) << poses[i];
@@ -166,7 +165,7 @@ TEST(RelativePose3ptVertical, IsNeverNan) {
     }
   }
   const std::vector<Vec3d> two(2), three(3);
-  Poses poses;
+  VerticalPoses poses;
   EXPECT_THROW(relativePose3ptVertical(two, three, three[0], three[0], poses), ArgumentError);
   EXPECT_THROW(relativePose3ptVertical(three, two, three[0], three[0], poses), ArgumentError);
   EXPECT_EQ(relativePose3ptVertical(three, three, three[0], three[0], poses), 0u);

@@ -26,7 +26,7 @@ struct Rays {
   std::vector<Mat<double, 3, 2>> first_by_pixel, second_by_pixel;
 };
 
-Rays raysOf(const TwoViews& views, const Camera& camera) {
+Rays raysOf(const MatchedPixels& views, const Camera& camera) {
   Rays rays;
   rays.first.resize(views.first.size());
   rays.second.resize(views.first.size());
@@ -40,11 +40,11 @@ Rays raysOf(const TwoViews& views, const Camera& camera) {
 }
 
 // One set of matches of each kind.
-std::vector<EpipolarMatches> allKinds(Generator& generator, const Scene& scene, SE3d* poses) {
+std::vector<EpipolarMatches> allKinds(Generator& generator, const SceneRecipe& scene, SE3d* poses) {
   std::vector<EpipolarMatches> all;
   const RandomOrder order = randomOrder(scene.count, 3);
-  const TwoViews flat = makeTwoViews(generator, pinhole(), unequalPinhole(), scene);
-  const TwoViews round = makeTwoViews(generator, fisheye(), fisheye(), scene);
+  const MatchedPixels flat = makeMatchedPixels(generator, pinhole(), unequalPinhole(), scene);
+  const MatchedPixels round = makeMatchedPixels(generator, fisheye(), fisheye(), scene);
   const Rays rays = raysOf(round, fisheye());
   all.push_back(
       EpipolarMatches::fromPinholes(flat.first, flat.second, pinhole(), unequalPinhole(), order));
@@ -96,7 +96,7 @@ void expectHessian(const Problem& problem, const ModelNumbers& model, std::size_
 
 TEST(RobustProblemsTest, ScoresAreExactResidualsInEveryVariant) {
   Generator generator(1);
-  Scene scene;
+  SceneRecipe scene;
   scene.count = 203;
   SE3d poses[3];
   const std::vector<EpipolarMatches> all = allKinds(generator, scene, poses);
@@ -125,11 +125,11 @@ TEST(RobustProblemsTest, ScoresAreExactResidualsInEveryVariant) {
 // of the best correction there is, found by search along the gradient with Newton's method.
 TEST(RobustProblemsTest, SampsonIsTheLeastCorrectionOfPixels) {
   Generator generator(2);
-  Scene scene;
+  SceneRecipe scene;
   scene.outliers = 0;
   scene.sigma = 0.1;
   const Camera camera = fisheye();
-  const TwoViews views = makeTwoViews(generator, camera, camera, scene);
+  const MatchedPixels views = makeMatchedPixels(generator, camera, camera, scene);
   const Rays rays = raysOf(views, camera);
   const RandomOrder order = randomOrder(scene.count, 3);
   const EpipolarMatches matches = EpipolarMatches::fromFrames(
@@ -156,7 +156,7 @@ TEST(RobustProblemsTest, SampsonIsTheLeastCorrectionOfPixels) {
 
 TEST(RobustProblemsTest, DerivativesOfEssentialMatricesAreThoseOfTheCost) {
   Generator generator(3);
-  Scene scene;
+  SceneRecipe scene;
   scene.count = 70;
   SE3d poses[3];
   const std::vector<EpipolarMatches> all = allKinds(generator, scene, poses);
@@ -176,9 +176,9 @@ TEST(RobustProblemsTest, DerivativesOfEssentialMatricesAreThoseOfTheCost) {
 
 TEST(RobustProblemsTest, DerivativesOfFundamentalMatricesAreThoseOfTheCost) {
   Generator generator(4);
-  Scene scene;
+  SceneRecipe scene;
   scene.count = 70;
-  const TwoViews views = makeTwoViews(generator, pinhole(), pinhole(), scene);
+  const MatchedPixels views = makeMatchedPixels(generator, pinhole(), pinhole(), scene);
   const EpipolarMatches matches =
       EpipolarMatches::fromPoints(views.first, views.second, randomOrder(scene.count, 1));
   const FundamentalProblem problem(matches);
@@ -264,7 +264,7 @@ TEST(RobustProblemsTest, OtherPosesOfAPlaneHaveTheSameHomography) {
 
 TEST(RobustProblemsTest, ScoresAndDerivativesOfPosesAreExact) {
   Generator generator(8);
-  Scene scene;
+  SceneRecipe scene;
   scene.count = 101;
   scene.sigma = 0.3;
   for (const Camera& camera : {unequalPinhole(), radtan(), fisheye(), panorama()}) {

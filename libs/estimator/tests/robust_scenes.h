@@ -11,6 +11,8 @@
 #include <random>
 #include <vector>
 
+#include "instances.h"
+
 namespace robust_test {
 
 using gslam::Camera;
@@ -20,6 +22,13 @@ using gslam::Vec2d;
 using gslam::Vec3d;
 
 using Generator = std::mt19937;
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+
+// Trials of the daily tier, or ten times as many.
+inline int trials(int daily) {
+  return static_cast<int>(solver_test::instances(10)) / 10 * daily;
+}
 
 inline Camera pinhole() {
   return Camera::fromParameters("pinhole", 640, 480, {500, 500, 319.5, 239.5});
@@ -56,7 +65,7 @@ inline Vec2d seenPixel(Generator& generator, const Camera& camera, Vec3d& bearin
   }
 }
 
-struct Scene {
+struct SceneRecipe {
   std::size_t count = 200;
   double outliers = 0.5;
   double sigma = 1;       // pixels
@@ -66,15 +75,15 @@ struct Scene {
   double nearest = 4, farthest = 12;
 };
 
-struct TwoViews {
+struct MatchedPixels {
   SE3d T_second_first;
   std::vector<Vec2d> first, second;
   std::vector<std::uint8_t> is_true;
 };
 
-inline TwoViews makeTwoViews(Generator& generator, const Camera& first_camera,
-                             const Camera& second_camera, const Scene& scene) {
-  TwoViews views;
+inline MatchedPixels makeMatchedPixels(Generator& generator, const Camera& first_camera,
+                                       const Camera& second_camera, const SceneRecipe& scene) {
+  MatchedPixels views;
   const Vec3d turn = scene.rotation * gslam::randomDirection<double>(generator);
   const Vec3d direction = gslam::randomDirection<double>(generator);
   views.T_second_first = SE3d(SO3d::exp(turn), scene.baseline * direction);
@@ -117,8 +126,8 @@ struct PosedPoints {
   std::vector<std::uint8_t> is_true;
 };
 
-inline PosedPoints makePosedPoints(Generator& generator, const Camera& camera, const Scene& scene,
-                                   const Vec3d& origin = {0, 0, 0}) {
+inline PosedPoints makePosedPoints(Generator& generator, const Camera& camera,
+                                   const SceneRecipe& scene, const Vec3d& origin = {0, 0, 0}) {
   PosedPoints posed;
   posed.T_world_camera = gslam::randomOf<SE3d>(generator, 5.0);
   posed.T_world_camera.setTranslation(posed.T_world_camera.translation() + origin);
@@ -156,9 +165,10 @@ inline std::vector<Vec3d> bearingsOf(const Camera& camera, const std::vector<Vec
 inline double rotationError(const SE3d& a, const SE3d& b) {
   return (a.rotation().inverse() * b.rotation()).angle();
 }
-// Angle between two directions, radians.
-inline double angleBetween(const Vec3d& a, const Vec3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
+// Angle between the translations, radians.
+inline double directionError(const SE3d& a, const SE3d& b) {
+  const Vec3d &s = a.translation(), &t = b.translation();
+  return std::atan2(s.cross(t).norm(), s.dot(t));
 }
 
 }  // namespace robust_test

@@ -16,7 +16,7 @@ using gslam::ArgumentError;
 using gslam::Span;
 using namespace solver_test;  // NOLINT(google-build-using-namespace)
 
-double distanceToNearest(const std::array<SO3d, 20>& found, std::size_t count, const SO3d& truth) {
+double angleToNearest(const std::array<SO3d, 20>& found, std::size_t count, const SO3d& truth) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < count; ++i) {
     least = std::min(least, (found[i].inverse() * truth).angle());
@@ -47,10 +47,10 @@ TEST(Rotation5ptKneip, FindsTheTruth) {
     const std::size_t count = gslam::rotation5ptKneip(views.first, views.second, found);
     ASSERT_LE(count, 20U);
     ASSERT_EQ(count % 2, 0U);
-    if (!(distanceToNearest(found, count, views.T_second_first.rotation()) < 1e-6)) ++lost;
+    if (!(angleToNearest(found, count, views.T_second_first.rotation()) < 1e-6)) ++lost;
     for (std::size_t k = 0; k < count; ++k) {
       ASSERT_LT(coplanarity(found[k], views), 1e-10) << i;
-      ASSERT_GT(distanceToNearest(found, k, found[k]), 1e-9) << i;
+      ASSERT_GT(angleToNearest(found, k, found[k]), 1e-9) << i;
     }
   }
   EXPECT_LE(static_cast<double>(lost), 0.001 * static_cast<double>(all));
@@ -70,7 +70,7 @@ TEST(Rotation5ptKneip, FindsThoseOfTheEssentialMatrices) {
       std::array<SE3d, 4> poses;
       ASSERT_EQ(gslam::decomposeEssential(essentials[k], poses), 4U);
       for (const SE3d& pose : poses) {
-        missed += distanceToNearest(found, count, pose.rotation()) < 1e-5 ? 0 : 1;
+        missed += angleToNearest(found, count, pose.rotation()) < 1e-5 ? 0 : 1;
       }
     }
   }
@@ -88,7 +88,7 @@ TEST(Rotation5ptKneip, GivesOnlyValidSolutions) {
         ASSERT_LT(coplanarity(found[k], odd.second), 1e-6) << odd.first;
       }
       if (odd.first == "forwards" || odd.first == "sideways" || odd.first == "plane") {
-        EXPECT_LT(distanceToNearest(found, count, odd.second.T_second_first.rotation()), 1e-6)
+        EXPECT_LT(angleToNearest(found, count, odd.second.T_second_first.rotation()), 1e-6)
             << odd.first;
       }
     }

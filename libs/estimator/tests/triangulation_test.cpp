@@ -40,14 +40,14 @@ const std::vector<Named> kSolvers = {
     {"views", viaViews}};
 
 // Two cameras and a point, all around.
-struct Scene {
+struct SeenPoint {
   SE3d t;
   Vec3d point, f, g;
   double parallax;
 };
 template <class Generator>
-Scene randomScene(Generator& generator, double baseline, double reach) {
-  Scene s;
+SeenPoint randomSeenPoint(Generator& generator, double baseline, double reach) {
+  SeenPoint s;
   s.t = SE3d(randomOf<SO3d>(generator), baseline * randomDirection<double>(generator));
   s.point = randomUniform<double>(generator, 0.2, 1) * reach * randomDirection<double>(generator);
   s.f = s.point.normalized();
@@ -62,7 +62,7 @@ TEST(Triangulation, FindsTheTruth) {
     std::size_t lost = 0;
     const std::size_t count = instances();
     for (std::size_t i = 0; i < count; ++i) {
-      const Scene s = randomScene(generator, 1, 10);
+      const SeenPoint s = randomSeenPoint(generator, 1, 10);
       Vec3d found;
       const bool is_lost =
           solver.solve(s.t, s.f, s.g, found) != 1 || !((found - s.point).norm() < 1e-6);
@@ -81,7 +81,7 @@ TEST(Triangulation, KeepsDigitsAtSmallParallax) {
     std::mt19937 generator(2);
     for (const double baseline : {1e-2, 1e-4, 1e-6}) {
       for (std::size_t i = 0; i < instances(500); ++i) {
-        const Scene s = randomScene(generator, baseline, 10);
+        const SeenPoint s = randomSeenPoint(generator, baseline, 10);
         if (s.parallax < 0.02 * baseline) continue;
         Vec3d found;
         ASSERT_EQ(solver.solve(s.t, s.f, s.g, found), 1u) << solver.name << ' ' << s.parallax;
@@ -96,7 +96,7 @@ TEST(Triangulation, RefusesParallelRaysAndPointsBehind) {
   for (const Named& solver : kSolvers) {
     std::mt19937 generator(3);
     for (int i = 0; i < 1000; ++i) {
-      const Scene s = randomScene(generator, 1, 3);
+      const SeenPoint s = randomSeenPoint(generator, 1, 3);
       Vec3d found = {{7, 8, 9}};
       // At infinity.
       EXPECT_EQ(solver.solve(s.t, s.f, s.t.rotation() * s.f, found), 0u) << solver.name;
@@ -136,7 +136,7 @@ TEST(Triangulation, IsNeverNan) {
     std::mt19937 generator(5);
     for (const double value : absurdValues()) {
       for (std::size_t at = 0; at < 10; ++at) {
-        Scene s = randomScene(generator, 1, 3);
+        SeenPoint s = randomSeenPoint(generator, 1, 3);
         Vec3d t = s.t.translation();
         if (at < 3) s.f[at] = value;
         if (at >= 3 && at < 6) s.g[at - 3] = value;
@@ -163,7 +163,7 @@ double sine2(const Vec3d& bearing, const Vec3d& to_point) {
 TEST(TriangulateOptimal, HasTheLeastSumOfSquaredSines) {
   std::mt19937 generator(6);
   for (int i = 0; i < 300; ++i) {
-    const Scene s = randomScene(generator, 1, 3);
+    const SeenPoint s = randomSeenPoint(generator, 1, 3);
     if (s.parallax < 0.1) continue;
     const Vec3d f = (s.f + 0.02 * randomNormal<double, 3>(generator)).normalized();
     const Vec3d g = (s.g + 0.02 * randomNormal<double, 3>(generator)).normalized();
@@ -187,7 +187,7 @@ TEST(TriangulateOptimal, HasTheLeastSumOfSquaredSines) {
 TEST(TriangulateLinear, IsTheNullVectorOfTheFourByFourMatrix) {
   std::mt19937 generator(7);
   for (std::size_t i = 0; i < instances(2000); ++i) {
-    const Scene s = randomScene(generator, 1, 5);
+    const SeenPoint s = randomSeenPoint(generator, 1, 5);
     const double noise = i % 2 ? 0.01 : 0.3;
     const Vec3d f = (s.f + noise * randomNormal<double, 3>(generator)).normalized();
     const Vec3d g = (s.g + noise * randomNormal<double, 3>(generator)).normalized();

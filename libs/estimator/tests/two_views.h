@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "closed_form_helpers.h"
+
 namespace solver_test {
 
 using gslam::Mat3d;
@@ -182,10 +184,6 @@ inline double essentialError(const Mat3d& e) {
   const Mat3d square = e * e.transpose();
   const double trace = square(0, 0) + square(1, 1) + square(2, 2);
   return norm(2.0 * (square * e) - trace * e);
-}
-
-inline double determinant(const Mat3d& m) {
-  return m.row(0).dot(m.row(1).cross(m.row(2)));
 }
 
 /// Scenes that are hard, or have no only solution.

@@ -31,7 +31,7 @@ Eye eyeOf(const Camera& camera) {
   return eye;
 }
 
-CameraImage imageOf(const Camera& camera, PixelType type, double metres) {
+CameraImage depthImageOf(const Camera& camera, PixelType type, double metres) {
   CameraImage image;
   image.kind = gslam::ImageKind::depth;
   image.name = "depth";
@@ -69,7 +69,7 @@ TEST(DepthReader, ReadsTheNearestPixelAndWhereTheSecondCameraSeesIt) {
   const Camera camera = pinhole();
   DepthReader reader(eyeOf(camera), camera, SE3d());
   for (PixelType type : {PixelType::u16, PixelType::f32}) {
-    CameraImage image = imageOf(camera, type, 2);
+    CameraImage image = depthImageOf(camera, type, 2);
     std::vector<float> depth, right_u;
     reader.read(image, {featureAt(10.3F, 20), featureAt(0, 0), featureAt(63.4F, 47.4F)}, depth,
                 right_u);
@@ -83,7 +83,7 @@ TEST(DepthReader, ReadsTheNearestPixelAndWhereTheSecondCameraSeesIt) {
 TEST(DepthReader, APixelIsAsWideAsItIs) {
   const Camera camera = pinhole();
   DepthReader reader(eyeOf(camera), camera, SE3d());
-  CameraImage image = imageOf(camera, PixelType::f32, 2);
+  CameraImage image = depthImageOf(camera, PixelType::f32, 2);
   image.image.at<float>(20, 10) = 2.1F;
   EXPECT_EQ(depthAt(reader, image, 20.45F, 9.55F), 2.1F);
   EXPECT_EQ(depthAt(reader, image, 20.55F, 10), 2);
@@ -92,7 +92,7 @@ TEST(DepthReader, APixelIsAsWideAsItIs) {
 TEST(DepthReader, AHoleIsFilledFromBesideAndAnEdgeIsNoDepth) {
   const Camera camera = pinhole();
   DepthReader reader(eyeOf(camera), camera, SE3d());
-  CameraImage image = imageOf(camera, PixelType::f32, 2);
+  CameraImage image = depthImageOf(camera, PixelType::f32, 2);
   image.image.at<float>(20, 10) = 0;
   EXPECT_EQ(depthAt(reader, image, 20, 10), 2);
   image.image.at<float>(20, 10) = std::numeric_limits<float>::quiet_NaN();
@@ -105,7 +105,7 @@ TEST(DepthReader, AHoleIsFilledFromBesideAndAnEdgeIsNoDepth) {
   EXPECT_EQ(depthAt(reader, image, 20, 10), 0);  // 2 or 3?
   EXPECT_EQ(depthAt(reader, image, 22, 10), 0);
   EXPECT_EQ(depthAt(reader, image, 24, 10), 2);
-  const CameraImage nothing = imageOf(camera, PixelType::u16, 0);
+  const CameraImage nothing = depthImageOf(camera, PixelType::u16, 0);
   EXPECT_EQ(depthAt(reader, nothing, 20, 10), 0);
 }
 
@@ -114,7 +114,7 @@ TEST(DepthReader, AnotherCameraIsProjected) {
   const Camera camera = pinhole(64, 48, 50);
   for (const Camera& other : {pinhole(64, 48, 45), pinhole(32, 24, 25), pinhole(160, 120, 120)}) {
     const SE3d T_eye_depth(gslam::SO3d::exp({0.02, -0.05, 0.1}), Vec3d{0.03, -0.01, 0.02});
-    CameraImage image = imageOf(other, PixelType::f32, 0);
+    CameraImage image = depthImageOf(other, PixelType::f32, 0);
     // The wall z = 2 + 0.1 x in the eye.
     const Vec3d normal = {-0.1, 0, 1};
     for (int y = 0; y < other.height(); ++y) {
@@ -148,7 +148,7 @@ TEST(DepthReader, WhatIsBehindIsNotSeen) {
   const Camera camera = pinhole();
   const SE3d beside(gslam::SO3d(), Vec3d{0.2, 0, 0});
   DepthReader reader(eyeOf(camera), camera, beside);
-  CameraImage image = imageOf(camera, PixelType::f32, 4);
+  CameraImage image = depthImageOf(camera, PixelType::f32, 4);
   for (int y = 0; y < 48; ++y) {
     for (int x = 20; x < 40; ++x) image.image.at<float>(x, y) = 1;  // 10 to the right in the eye
   }
@@ -160,12 +160,12 @@ TEST(DepthReader, WhatCannotBeUsedIsNamed) {
   const Camera camera = pinhole();
   const DepthReader reader(eyeOf(camera), camera, SE3d());
   std::string problem;
-  CameraImage image = imageOf(camera, PixelType::u16, 1);
+  CameraImage image = depthImageOf(camera, PixelType::u16, 1);
   image.depth_scale = 0;
   EXPECT_FALSE(reader.accepts(image, problem));
   EXPECT_EQ(problem,
             "the image of camera 'depth' has no scale of depth, expected metres for a number");
-  image = imageOf(pinhole(10, 10), PixelType::u16, 1);
+  image = depthImageOf(pinhole(10, 10), PixelType::u16, 1);
   EXPECT_FALSE(reader.accepts(image, problem));
   EXPECT_EQ(problem, "the image of camera 'depth' is 10 x 10 u16, expected 64 x 48 u16 or f32");
   image.image = Image();

@@ -24,8 +24,8 @@ using visual::Options;
 using visual::SensorKind;
 
 // A mapper that gets keyframes of a camera whose tracking is off by a bit.
-struct Mapped {
-  explicit Mapped(SensorKind kind, std::size_t points = 3000)
+struct FedMapper {
+  explicit FedMapper(SensorKind kind, std::size_t points = 3000)
       : room(made::makeRoom(6, points)), world(made::makeEye(kind)) {}
 
   Seen look(const SE3d& camera) {
@@ -109,7 +109,7 @@ struct Mapped {
 };
 
 TEST(AddPointsFromDepth, TakesTheNearestFirst) {
-  Mapped mapped(SensorKind::rgbd);
+  FedMapper mapped(SensorKind::rgbd);
   visual::Eye eye = mapped.world.eye();
   eye.far = 3;
   visual::World world(eye);
@@ -138,7 +138,7 @@ TEST(AddPointsFromDepth, TakesTheNearestFirst) {
 class LocalMapperTest : public testing::TestWithParam<SensorKind> {};
 
 TEST_P(LocalMapperTest, BringsWhatIsOffToWhereItIs) {
-  Mapped mapped(GetParam());
+  FedMapper mapped(GetParam());
   mapped.begin(made::cameraOnCircle(0), made::cameraOnCircle(0.15));
   const std::size_t before = mapped.world.map().points().size();
   const Vec3d off{0.03, -0.02, 0.02};
@@ -155,7 +155,7 @@ TEST_P(LocalMapperTest, BringsWhatIsOffToWhereItIs) {
 }
 
 TEST_P(LocalMapperTest, AddsAKeyframeWhereItsReferenceIsNow) {
-  Mapped mapped(GetParam());
+  FedMapper mapped(GetParam());
   mapped.begin(made::cameraOnCircle(0), made::cameraOnCircle(0.1));
   KeyframeRequest request = mapped.request(made::cameraOnCircle(0.2));
   // A loop is closed meanwhile, which moves the reference and makes it twice as large.
@@ -168,7 +168,7 @@ TEST_P(LocalMapperTest, AddsAKeyframeWhereItsReferenceIsNow) {
 }
 
 TEST_P(LocalMapperTest, ManagesWithAReferenceAndPointsThatAreGone) {
-  Mapped mapped(GetParam());
+  FedMapper mapped(GetParam());
   mapped.begin(made::cameraOnCircle(0), made::cameraOnCircle(0.1));
   mapped.improve(mapped.add(made::cameraOnCircle(0.2)));
   KeyframeRequest request = mapped.request(made::cameraOnCircle(0.3));
@@ -186,7 +186,7 @@ TEST_P(LocalMapperTest, ManagesWithAReferenceAndPointsThatAreGone) {
 }
 
 TEST_P(LocalMapperTest, RemovesKeyframesThatSayNothingNew) {
-  Mapped mapped(GetParam());
+  FedMapper mapped(GetParam());
   mapped.begin(made::cameraOnCircle(0), made::cameraOnCircle(0.1));
   // To and fro before the same wall.
   for (int i = 0; i < 12; ++i) {
@@ -207,7 +207,7 @@ TEST_P(LocalMapperTest, RemovesKeyframesThatSayNothingNew) {
 }
 
 TEST_P(LocalMapperTest, RemovesPointsThatAreNotConfirmed) {
-  Mapped mapped(GetParam());
+  FedMapper mapped(GetParam());
   mapped.begin(made::cameraOnCircle(0), made::cameraOnCircle(0.15));
   // A point that should have been seen and was not.
   KeyframeRequest request = mapped.request(made::cameraOnCircle(0.3));
@@ -229,7 +229,7 @@ TEST_P(LocalMapperTest, RemovesPointsThatAreNotConfirmed) {
 
 // A point that only one keyframe saw, by its depth, is gone two keyframes later.
 TEST(LocalMapper, RemovesPointsThatNobodyElseSees) {
-  Mapped mapped(SensorKind::rgbd);
+  FedMapper mapped(SensorKind::rgbd);
   mapped.begin(made::cameraOnCircle(0), made::cameraOnCircle(0.15));
   const KeyframeId id = mapped.add(made::cameraOnCircle(0.3));
   std::vector<PointId> lonely;
@@ -253,7 +253,7 @@ TEST(LocalMapper, RemovesPointsThatNobodyElseSees) {
 }
 
 TEST_P(LocalMapperTest, MakesOnePointOfTwo) {
-  Mapped mapped(GetParam());
+  FedMapper mapped(GetParam());
   mapped.begin(made::cameraOnCircle(0), made::cameraOnCircle(0.15));
   // The tracker has missed half of what is there.
   KeyframeRequest request = mapped.request(made::cameraOnCircle(0.2));
@@ -272,8 +272,8 @@ TEST_P(LocalMapperTest, MakesOnePointOfTwo) {
 }
 
 TEST_P(LocalMapperTest, DoesTheSameToTheSame) {
-  Mapped one(GetParam(), 1500), other(GetParam(), 1500);
-  for (Mapped* mapped : {&one, &other}) {
+  FedMapper one(GetParam(), 1500), other(GetParam(), 1500);
+  for (FedMapper* mapped : {&one, &other}) {
     mapped->begin(made::cameraOnCircle(0), made::cameraOnCircle(0.15));
     for (int i = 2; i < 5; ++i) mapped->improve(mapped->add(made::cameraOnCircle(0.15 * i)));
   }

@@ -14,18 +14,18 @@ namespace {
 using gslam::KeyframeId;
 using gslam::SE3d;
 using made::Drift;
+using made::driftOf;
 using made::Journey;
+using made::kStep;
 using made::Room;
 using visual::closeLoop;
 using visual::Loop;
 using visual::LoopReport;
 using visual::SensorKind;
 
-constexpr double kStep = made::kPi / 30;
-
 // Walks a circle until the loop is found.
-struct Walk {
-  Walk(SensorKind kind, const Drift& drift) : journey(kind, drift, 5) {
+struct WalkToLoop {
+  WalkToLoop(SensorKind kind, const Drift& drift) : journey(kind, drift, 5) {
     const Room room = made::makeRoom(1);
     visual::PlaceIndex places(options.loop, 1);
     visual::LoopDetector detector(options, places);
@@ -60,15 +60,10 @@ struct Walk {
   bool is_found = false;
 };
 
-// A shift to the side or ahead would make a circle of another size of a circle: no loop shows it.
-Drift driftOf(SensorKind kind) {
-  return {{0, 0.001, 0}, {0.0002, 0.001, 0.0001}, kind == SensorKind::mono ? 0.998 : 1};
-}
-
 class LoopCloserTest : public testing::TestWithParam<SensorKind> {};
 
 TEST_P(LoopCloserTest, TakesTheDriftAway) {
-  Walk walk(GetParam(), driftOf(GetParam()));
+  WalkToLoop walk(GetParam(), driftOf(GetParam()));
   ASSERT_TRUE(walk.is_found);
   const double error = walk.journey.error(), fitting = walk.fitting();
   EXPECT_GT(error, 0.05);
@@ -108,7 +103,7 @@ TEST_P(LoopCloserTest, TakesTheDriftAway) {
 
 // Nothing is bent where nothing is wrong.
 TEST_P(LoopCloserTest, LeavesAMapWithoutDrift) {
-  Walk walk(GetParam(), {});
+  WalkToLoop walk(GetParam(), {});
   ASSERT_TRUE(walk.is_found);
   const LoopReport report = closeLoop(walk.journey.world, walk.loop, walk.options);
   EXPECT_TRUE(report.is_closed) << report.optimizer;
@@ -118,7 +113,7 @@ TEST_P(LoopCloserTest, LeavesAMapWithoutDrift) {
 }
 
 TEST_P(LoopCloserTest, DoesTheSameToTheSame) {
-  Walk one(GetParam(), driftOf(GetParam())), other(GetParam(), driftOf(GetParam()));
+  WalkToLoop one(GetParam(), driftOf(GetParam())), other(GetParam(), driftOf(GetParam()));
   ASSERT_TRUE(one.is_found && other.is_found);
   closeLoop(one.journey.world, one.loop, one.options);
   closeLoop(other.journey.world, other.loop, other.options);
@@ -133,7 +128,7 @@ TEST_P(LoopCloserTest, DoesTheSameToTheSame) {
 
 // The map went on while the loop was found.
 TEST_P(LoopCloserTest, ManagesWithoutWhatIsGone) {
-  Walk walk(GetParam(), driftOf(GetParam()));
+  WalkToLoop walk(GetParam(), driftOf(GetParam()));
   ASSERT_TRUE(walk.is_found);
   visual::World& world = walk.journey.world;
   for (std::size_t i = 0; i < walk.loop.matches.size(); i += 3) {

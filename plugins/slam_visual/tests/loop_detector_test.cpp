@@ -14,20 +14,15 @@ using gslam::KeyframeId;
 using gslam::SE3d;
 using gslam::SIM3d;
 using gslam::Vec3d;
-using made::Drift;
+using made::driftOf;
 using made::Journey;
+using made::kStep;
 using made::Room;
 using visual::Loop;
 using visual::SensorKind;
 
-constexpr double kStep = made::kPi / 30;  // of a circle of 60 keyframes
-
-Drift driftOf(SensorKind kind) {
-  return {{0, 0.001, 0}, {0.0002, 0.001, 0.0001}, kind == SensorKind::mono ? 0.998 : 1};
-}
-
-struct Walk {
-  explicit Walk(SensorKind kind, const visual::Options& wanted = {})
+struct WatchedWalk {
+  explicit WatchedWalk(SensorKind kind, const visual::Options& wanted = {})
       : journey(kind, driftOf(kind), 5), options(wanted) {}
 
   /// Adds a keyframe and asks whether it closes a loop; the first that does is kept.
@@ -59,7 +54,7 @@ class LoopDetectorTest : public testing::TestWithParam<SensorKind> {
 };
 
 TEST_P(LoopDetectorTest, FindsTheLoopOfACircle) {
-  Walk walk(GetParam());
+  WatchedWalk walk(GetParam());
   walk.visitCircle(room, 0, 70);
   ASSERT_TRUE(walk.loop);
   const std::uint32_t here = std::uint32_t(walk.loop->here);
@@ -89,13 +84,13 @@ TEST_P(LoopDetectorTest, FindsTheLoopOfACircle) {
 }
 
 TEST_P(LoopDetectorTest, FindsNoneOnTheWay) {
-  Walk walk(GetParam());
+  WatchedWalk walk(GetParam());
   walk.visitCircle(room, 0, 45);
   EXPECT_FALSE(walk.loop);
 }
 
 TEST_P(LoopDetectorTest, FindsNoneWhereAllLooksDifferent) {
-  Walk walk(GetParam());
+  WatchedWalk walk(GetParam());
   walk.visitCircle(room, 0, 45);
   Room other = room;
   made::Random random(9);
@@ -106,7 +101,7 @@ TEST_P(LoopDetectorTest, FindsNoneWhereAllLooksDifferent) {
 
 // The same things as at the beginning, but in other places.
 TEST_P(LoopDetectorTest, RefusesWhatOnlyLooksAlike) {
-  Walk walk(GetParam());
+  WatchedWalk walk(GetParam());
   walk.visitCircle(room, 0, 50);
   Room mixed = room;
   made::Random random(9);
@@ -129,7 +124,7 @@ TEST_P(LoopDetectorTest, RefusesWhatOnlyLooksAlike) {
 // A second room, furnished as the first one.
 TEST_P(LoopDetectorTest, RefusesWhatIsTooFarAwayForDrift) {
   if (GetParam() == SensorKind::mono) GTEST_SKIP() << "has no lengths";
-  Walk walk(GetParam());
+  WatchedWalk walk(GetParam());
   walk.visitCircle(room, 0, 40);
   const SE3d away({}, {0, 25, 0});
   Room twin = room;
@@ -141,7 +136,7 @@ TEST_P(LoopDetectorTest, RefusesWhatIsTooFarAwayForDrift) {
 TEST_P(LoopDetectorTest, NeedsKeyframesInARow) {
   visual::Options options;
   options.loop.consistent = 100;
-  Walk walk(GetParam(), options);
+  WatchedWalk walk(GetParam(), options);
   walk.visitCircle(room, 0, 70);
   EXPECT_FALSE(walk.loop);
 }
@@ -149,13 +144,13 @@ TEST_P(LoopDetectorTest, NeedsKeyframesInARow) {
 TEST_P(LoopDetectorTest, NeedsAsManyMatchesAsWanted) {
   visual::Options options;
   options.loop.least_matches = 5000;
-  Walk walk(GetParam(), options);
+  WatchedWalk walk(GetParam(), options);
   walk.visitCircle(room, 0, 70);
   EXPECT_FALSE(walk.loop);
 }
 
 TEST_P(LoopDetectorTest, SaysTheSameOfTheSame) {
-  Walk one(GetParam()), other(GetParam());
+  WatchedWalk one(GetParam()), other(GetParam());
   one.visitCircle(room, 0, 66);
   other.visitCircle(room, 0, 66);
   ASSERT_TRUE(one.loop && other.loop);
@@ -167,7 +162,7 @@ TEST_P(LoopDetectorTest, SaysTheSameOfTheSame) {
 
 // Numbers of keyframes begin anew with each map.
 TEST_P(LoopDetectorTest, FindsLoopsInTheNextMap) {
-  Walk walk(GetParam());
+  WatchedWalk walk(GetParam());
   walk.visitCircle(room, 0, 70);
   ASSERT_TRUE(walk.loop);
   for (std::uint32_t i = 0; i < 70; ++i) walk.places.remove(KeyframeId(i));

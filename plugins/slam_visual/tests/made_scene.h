@@ -93,6 +93,8 @@ inline visual::Eye makeEye(visual::SensorKind kind) {
   return eye;
 }
 
+constexpr double kStep = kPi / 30;  ///< of a circle of 60 views
+
 /// The camera at an angle of a circle about the middle of the room, looking outward.
 inline SE3d cameraOnCircle(double angle, double radius = 1.5) {
   const double c = std::cos(angle), s = std::sin(angle);
@@ -162,6 +164,11 @@ struct Drift {
   Vec3d turn{};      ///< radians, in the camera
   double scale = 1;  ///< lengths shrink or grow by it with each keyframe
 };
+
+/// A shift to the side or ahead would make a circle of another size of a circle: no loop shows it.
+inline Drift driftOf(visual::SensorKind kind) {
+  return {{0, 0.001, 0}, {0.0002, 0.001, 0.0001}, kind == visual::SensorKind::mono ? 0.998 : 1};
+}
 
 /// A world that grows as that of a SLAM system does: a point lives as long as it is in sight, and
 /// what comes back into sight is taken for another one.

@@ -16,13 +16,12 @@
 namespace {
 
 using gslam::KeyframeId;
+using made::kStep;
 using made::Random;
 using visual::PlaceIndex;
 using visual::SimilarPlace;
 using visual::View;
 using Views = std::vector<std::shared_ptr<const View>>;
-
-constexpr double kStep = made::kPi / 30;  // of a circle of 60 views
 
 // Views on the circle, each with noise of its own.
 Views viewsOf(const made::Room& room, int count, std::uint64_t seed) {

@@ -11,15 +11,14 @@ namespace {
 using gslam::KeyframeId;
 using gslam::SE3d;
 using made::Journey;
+using made::kStep;
 using made::Room;
 using visual::Match;
 using visual::SensorKind;
 
-constexpr double kStep = made::kPi / 30;
-
 // A map without drift of a part of the room.
-struct Mapped {
-  explicit Mapped(SensorKind kind, int keyframes = 25, std::size_t points = 3000)
+struct MappedRoom {
+  explicit MappedRoom(SensorKind kind, int keyframes = 25, std::size_t points = 3000)
       : room(made::makeRoom(1, points)), journey(kind, {}, 5) {
     journey.visitCircle(room, 0, kStep, keyframes);
     for (int i = 0; i < keyframes; ++i) {
@@ -47,7 +46,7 @@ SE3d kidnapped() {
 class RelocalizerTest : public testing::TestWithParam<SensorKind> {};
 
 TEST_P(RelocalizerTest, FindsAViewFromElsewhereInTheMap) {
-  Mapped mapped(GetParam());
+  MappedRoom mapped(GetParam());
   const made::Seen seen = mapped.journey.lookFrom(mapped.room, kidnapped(), 1);
   ASSERT_TRUE(mapped.locate(seen));
   const SE3d T_world_body = kidnapped() * mapped.journey.world.eye().T_body_camera.inverse();
@@ -64,13 +63,13 @@ TEST_P(RelocalizerTest, FindsAViewFromElsewhereInTheMap) {
 }
 
 TEST_P(RelocalizerTest, FindsItAmongFewKeyframesWithoutAVocabulary) {
-  Mapped mapped(GetParam(), 11);
+  MappedRoom mapped(GetParam(), 11);
   EXPECT_FALSE(mapped.places.hasVocabulary());
   ASSERT_TRUE(mapped.locate(mapped.journey.lookFrom(mapped.room, kidnapped(), 1)));
 }
 
 TEST_P(RelocalizerTest, RefusesAnotherPlace) {
-  Mapped mapped(GetParam());
+  MappedRoom mapped(GetParam());
   const Room other = made::makeRoom(2);
   EXPECT_FALSE(mapped.locate(mapped.journey.lookFrom(other, kidnapped(), 1)));
   EXPECT_TRUE(mapped.matches.empty());
@@ -81,7 +80,7 @@ TEST_P(RelocalizerTest, RefusesAnotherPlace) {
 }
 
 TEST_P(RelocalizerTest, RefusesTheSameThingsInAnotherOrder) {
-  Mapped mapped(GetParam());
+  MappedRoom mapped(GetParam());
   Room mixed = mapped.room;
   made::Random random(3);
   for (std::size_t i = mixed.points.size() - 1; i > 0; --i) {
@@ -92,7 +91,7 @@ TEST_P(RelocalizerTest, RefusesTheSameThingsInAnotherOrder) {
 
 // A poster that hangs elsewhere, too: all of it fits, but it is the middle of the image only.
 TEST_P(RelocalizerTest, RefusesOneThingInAnotherPlace) {
-  Mapped mapped(GetParam(), 25, 8000);
+  MappedRoom mapped(GetParam(), 25, 8000);
   Room elsewhere = mapped.room;
   const gslam::Camera& camera = mapped.journey.world.eye().camera;
   made::Random random(4);
@@ -112,7 +111,7 @@ TEST_P(RelocalizerTest, RefusesOneThingInAnotherPlace) {
 }
 
 TEST_P(RelocalizerTest, SaysTheSameOfTheSame) {
-  Mapped one(GetParam()), other(GetParam());
+  MappedRoom one(GetParam()), other(GetParam());
   ASSERT_TRUE(one.locate(one.journey.lookFrom(one.room, kidnapped(), 1)));
   ASSERT_TRUE(other.locate(other.journey.lookFrom(other.room, kidnapped(), 1)));
   EXPECT_EQ(one.found.matrix(), other.found.matrix());
@@ -125,7 +124,7 @@ TEST_P(RelocalizerTest, SaysTheSameOfTheSame) {
 
 // The index knows keyframes that the scene, a copy of before, does not.
 TEST_P(RelocalizerTest, IgnoresKeyframesThatAreNotThere) {
-  Mapped mapped(GetParam());
+  MappedRoom mapped(GetParam());
   const made::Seen seen = mapped.journey.lookFrom(mapped.room, kidnapped(), 1);
   for (std::uint32_t i = 100; i < 105; ++i) mapped.places.add(KeyframeId(i), seen.view);
   EXPECT_TRUE(mapped.locate(seen));

@@ -28,18 +28,18 @@ using gslam::Vec3d;
 using Poses = std::map<std::uint64_t, TrackedPose>;
 
 /// What a run published.
-struct Played {
+struct SequenceRun {
   Poses live, last;
   std::size_t frames = 0;
   gslam::Trajectory truth;
   std::size_t loop_edges = 0;
 };
 
-Played runOn(gslam::Dataset& dataset, const Svar& given) {
+SequenceRun runOn(gslam::Dataset& dataset, const Svar& given) {
   const gslam::SlamFactory factory = visual::visualFactory();
   const std::unique_ptr<gslam::Slam> slam = factory.make();
   gslam::Messenger messenger;
-  Played run;
+  SequenceRun run;
   bool is_over = false;
   const gslam::Subscriber subscriber =
       messenger.subscribe<TrackedPose>("pose", [&](const TrackedPose& pose) {
@@ -71,7 +71,7 @@ struct Accuracy {
   double coverage = 0;
 };
 
-Accuracy accuracyOf(const Played& run, const Poses& poses, bool has_scale) {
+Accuracy accuracyOf(const SequenceRun& run, const Poses& poses, bool has_scale) {
   std::vector<Vec3d> found, truth;
   std::size_t tracked = 0;
   for (const auto& [frame, pose] : poses) {
@@ -108,7 +108,7 @@ struct Gate {
   double coverage;  ///< part of the frames
 };
 
-void expectReached(const Gate& gate, const Played& run) {
+void expectReached(const Gate& gate, const SequenceRun& run) {
   const bool has_scale = std::string(gate.sensor) == "mono";
   const Accuracy live = accuracyOf(run, run.live, has_scale);
   const Accuracy last = accuracyOf(run, run.last, has_scale);
@@ -126,7 +126,7 @@ TEST_P(RealSequences, AreFollowedAsWellAsByOthers) {
   const Gate& gate = GetParam();
   const std::unique_ptr<gslam::Dataset> dataset =
       gslam::openDataset(test_data::folder() + "sequences/" + gate.dataset, Svar());
-  const Played run = runOn(*dataset, Svar::object({{"sensor", gate.sensor}}));
+  const SequenceRun run = runOn(*dataset, Svar::object({{"sensor", gate.sensor}}));
   expectReached(gate, run);
   EXPECT_LE(accuracyOf(run, run.live, std::string(gate.sensor) == "mono").error, gate.error);
 }
@@ -172,7 +172,7 @@ TEST(Corridor, IsLostWhereThereIsNothingToSeeAndFoundAgain) {
   if (!isFull()) GTEST_SKIP() << "GSLAM_FULL_TESTS is not set";
   const std::unique_ptr<gslam::Dataset> dataset = gslam::openSynthetic(
       gslam::syntheticOptions("synthetic://corridor?frames=600&low_texture=200-230"));
-  const Played run = runOn(*dataset, Svar());
+  const SequenceRun run = runOn(*dataset, Svar());
   std::size_t lost = 0;
   for (const auto& [frame, pose] : run.live) {
     lost += pose.state == gslam::TrackingState::lost ? 1 : 0;

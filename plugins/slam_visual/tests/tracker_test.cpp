@@ -14,12 +14,11 @@ using gslam::SE3d;
 using gslam::SO3d;
 using gslam::TrackingState;
 using made::Journey;
+using made::kStep;
 using made::Room;
 using visual::KeyframeRequest;
 using visual::SensorKind;
 using visual::Tracked;
-
-constexpr double kStep = made::kPi / 30;
 
 // A map of a part of the room, and a tracker that begins at its newest keyframe.
 struct Followed {

@@ -18,16 +18,16 @@ using visual::SensorKind;
 using visual::View;
 using visual::ViewMaker;
 
-std::string nameOf(const std::string& options) {
+std::string roomName(const std::string& options) {
   return "synthetic://room?" + options;
 }
 
-const SensorRig& rigOf(const std::string& options) {
-  return images::worldOf(nameOf(options)).info().sensors;
+const SensorRig& roomRig(const std::string& options) {
+  return images::worldOf(roomName(options)).info().sensors;
 }
 
-std::shared_ptr<const Frame> frameOf(const std::string& options) {
-  return images::frameOf(nameOf(options), 0);
+std::shared_ptr<const Frame> roomFrame(const std::string& options) {
+  return images::frameOf(roomName(options), 0);
 }
 
 std::shared_ptr<const View> viewOf(ViewMaker& maker, const Frame& frame) {
@@ -68,9 +68,9 @@ TEST(ViewMaker, ChoosesByWhatTheDatasetHas) {
                                                       {"sensors=multi", SensorKind::mono}};
   for (const auto& one : cases) {
     const std::string name = one.first;
-    const auto maker = makeViewMaker(rigOf(name), Options());
+    const auto maker = makeViewMaker(roomRig(name), Options());
     EXPECT_EQ(maker->eye().kind, one.second) << one.first;
-    const auto frame = frameOf(name);
+    const auto frame = roomFrame(name);
     const auto view = viewOf(*maker, *frame);
     EXPECT_EQ(view->frame, frame->id);
     EXPECT_EQ(view->stamp, frame->stamp);
@@ -93,14 +93,14 @@ TEST(ViewMaker, TheUserMayChooseLess) {
   Options options;
   options.sensor = "mono";
   const std::string name = "sensors=rgbd";
-  const auto maker = makeViewMaker(rigOf(name), options);
+  const auto maker = makeViewMaker(roomRig(name), options);
   EXPECT_EQ(maker->eye().kind, SensorKind::mono);
   EXPECT_FALSE(maker->eye().hasDepth());
-  EXPECT_EQ(depthsOf(*viewOf(*maker, *frameOf(name))), 0U);
+  EXPECT_EQ(depthsOf(*viewOf(*maker, *roomFrame(name))), 0U);
 }
 
 TEST(ViewMaker, SaysWhatTheDatasetLacks) {
-  const SensorRig mono = rigOf("sensors=mono");
+  const SensorRig mono = roomRig("sensors=mono");
   EXPECT_TRUE(contains(refusalOf(mono, "stereo"), "2 cameras (it has 1)"));
   EXPECT_TRUE(contains(refusalOf(mono, "rgbd"), "depth images"));
   EXPECT_TRUE(contains(refusalOf(mono, "lidar"), "auto, mono, stereo, rgbd"));
@@ -110,12 +110,12 @@ TEST(ViewMaker, SaysWhatTheDatasetLacks) {
     EXPECT_TRUE(contains(refusalOf(bare, sensor), "the calibration of camera 'camera'"));
   }
   EXPECT_TRUE(contains(refusalOf(SensorRig(), "auto"), "1 camera (it has 0)"));
-  const SensorRig around = rigOf("sensors=multi");
+  const SensorRig around = roomRig("sensors=multi");
   EXPECT_TRUE(contains(refusalOf(around, "stereo"), "two cameras side by side"));
 }
 
 TEST(ViewMaker, CamerasAboveEachOtherAreNoPair) {
-  SensorRig rig = rigOf("sensors=stereo");
+  SensorRig rig = roomRig("sensors=stereo");
   rig.cameras[1].T_body_camera = gslam::SE3d(rig.cameras[1].T_body_camera.rotation(), {0, 0, -0.2});
   EXPECT_EQ(makeViewMaker(rig, Options())->eye().kind, SensorKind::mono);
   EXPECT_TRUE(contains(refusalOf(rig, "stereo"), "above or below"));
@@ -123,7 +123,7 @@ TEST(ViewMaker, CamerasAboveEachOtherAreNoPair) {
 
 TEST(ViewMaker, TheEyeIsThatOfTheSensors) {
   const std::string name = "sensors=stereo";
-  const SensorRig& rig = rigOf(name);
+  const SensorRig& rig = roomRig(name);
   Options options;
   options.mapping.far_baselines = 30;
   options.features.levels = 5;
@@ -138,12 +138,12 @@ TEST(ViewMaker, TheEyeIsThatOfTheSensors) {
 
 TEST(ViewMaker, SwappedCamerasAreTurnedRound) {
   const std::string name = "sensors=stereo";
-  SensorRig rig = rigOf(name);
+  SensorRig rig = roomRig(name);
   std::swap(rig.cameras[0], rig.cameras[1]);
-  const auto frame = frameOf(name);
+  const auto frame = roomFrame(name);
   Frame swapped = *frame;
   std::swap(swapped.images[0], swapped.images[1]);
-  const auto maker = makeViewMaker(rigOf(name), Options());
+  const auto maker = makeViewMaker(roomRig(name), Options());
   const auto other = makeViewMaker(rig, Options());
   EXPECT_NEAR(other->eye().baseline, 0.11, 1e-12);
   const auto a = viewOf(*maker, *frame), b = viewOf(*other, swapped);
@@ -202,12 +202,12 @@ TEST(ViewMaker, APairThatIsNotRectifiedIs) {
 TEST(ViewMaker, SameBitsForAnyNumberOfWorkers) {
   for (const char* sensors : {"sensors=stereo", "sensors=rgbd&colour=true"}) {
     const std::string name = sensors;
-    const auto frame = frameOf(name);
+    const auto frame = roomFrame(name);
     Options options;
-    const auto one = viewOf(*makeViewMaker(rigOf(name), options), *frame);
+    const auto one = viewOf(*makeViewMaker(roomRig(name), options), *frame);
     for (int workers : {2, 4, 0}) {
       options.workers = workers;
-      const auto many = viewOf(*makeViewMaker(rigOf(name), options), *frame);
+      const auto many = viewOf(*makeViewMaker(roomRig(name), options), *frame);
       ASSERT_EQ(one->size(), many->size());
       EXPECT_EQ(std::memcmp(one->features().data(), many->features().data(),
                             one->size() * sizeof(gslam::Feature)),
@@ -221,8 +221,8 @@ TEST(ViewMaker, SameBitsForAnyNumberOfWorkers) {
 TEST(ViewMaker, ASizeThatChangesIsAProblemAndTheNextFrameIsNone) {
   for (const char* sensors : {"sensors=mono", "sensors=stereo", "sensors=rgbd"}) {
     const std::string name = sensors;
-    const auto maker = makeViewMaker(rigOf(name), Options());
-    const auto frame = frameOf(name);
+    const auto maker = makeViewMaker(roomRig(name), Options());
+    const auto frame = roomFrame(name);
     const auto before = viewOf(*maker, *frame);
     for (std::size_t i = 0; i < frame->images.size(); ++i) {
       Frame odd = *frame;
@@ -247,9 +247,9 @@ TEST(ViewMaker, ASizeThatChangesIsAProblemAndTheNextFrameIsNone) {
 TEST(ViewMaker, BlackAndWhiteFramesAreNoProblem) {
   for (const char* sensors : {"sensors=mono", "sensors=stereo", "sensors=rgbd"}) {
     const std::string name = sensors;
-    const auto maker = makeViewMaker(rigOf(name), Options());
+    const auto maker = makeViewMaker(roomRig(name), Options());
     for (int brightness : {0, 255}) {
-      Frame frame = *frameOf(name);
+      Frame frame = *roomFrame(name);
       for (gslam::CameraImage& image : frame.images) {
         image.image = gslam::Image(640, 480, image.image.type());
         std::memset(image.image.bytes(), brightness, image.image.byteCount());

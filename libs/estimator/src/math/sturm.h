@@ -242,17 +242,17 @@ class RealRoots {
   }
 
   static void evaluateGrid(Chart& chart) noexcept {
-    using Lanes = Pair<double>;
+    using Values = Pair<double>;
     const double(&c)[N + 1] = chart.c;
     constexpr std::size_t kEven = N / 2 * 2;
     constexpr std::size_t kOdd = (N - 1) / 2 * 2 + 1;
     for (std::size_t i = 0; i < kSide; i += 2) {
-      const Lanes t = Lanes::load(kGrid.points + i);
-      const Lanes square = t * t;
-      Lanes even = Lanes::both(c[kEven]);
-      Lanes odd = Lanes::both(c[kOdd]);
-      for (std::size_t k = kEven; k >= 2; k -= 2) even = even * square + Lanes::both(c[k - 2]);
-      for (std::size_t k = kOdd; k >= 3; k -= 2) odd = odd * square + Lanes::both(c[k - 2]);
+      const Values t = Values::load(kGrid.points + i);
+      const Values square = t * t;
+      Values even = Values::both(c[kEven]);
+      Values odd = Values::both(c[kOdd]);
+      for (std::size_t k = kEven; k >= 2; k -= 2) even = even * square + Values::both(c[k - 2]);
+      for (std::size_t k = kOdd; k >= 3; k -= 2) odd = odd * square + Values::both(c[k - 2]);
       odd = odd * t;
       (even + odd).store(chart.values + kSide + 1 + i);
       (even - odd).swapped().store(chart.values + kSide - 2 - i);

@@ -21,12 +21,8 @@ inline namespace v1 {
 namespace detail {
 namespace {
 
-// A match is on a plane, or turned only, within twice the threshold: its error has two components.
-constexpr double kPlaneTolerance = 4;
 constexpr std::size_t kVoters = 100;  // matches that choose among the four poses of an E
-// Radians. What is known no better than that is not known.
-constexpr double kLargestRotationSigma = 0.1;
-constexpr double kLargestTranslationSigma = 0.07;
+constexpr double kLargestTranslationSigma = 0.07;  // radians, see kLargestRotationSigma
 // Noise in the place of parallax draws the translation to itself: radians, for as much noise as
 // parallax, both squared.
 constexpr double kBias = 0.6;
@@ -35,12 +31,11 @@ constexpr double kAsGoodDirection = 12;  // of a difference of squares, in varia
 // Of n matches, n times the ratio of parallax to noise, both squared: what makes the direction of a
 // translation known to about 0.2 radians (turns hide most of a translation), and eight of what
 // noise makes of it, divided by two.
-constexpr double kLeastParallax = 250;
+constexpr double kEnoughParallax = 250;
 constexpr double kParallaxNoise = 8;
 constexpr double kLeastRelief = 30;  // the same of a plane
-// Of a difference of squared residuals, in variances: three sigmas and a few matches at the
-// threshold, and four times what n matches make whose noise is seen across other lines.
-constexpr double kAsGood = 12;
+// Beside kAsGood, times the root of n: four times what n matches make whose noise is seen across
+// other lines.
 constexpr double kAsGoodNoise = 8;
 
 constexpr const char* kTwoPosesOfPlane =
@@ -52,10 +47,10 @@ Mat3d essentialOf(const ModelNumbers& model) {
   std::copy(model.begin(), model.begin() + 9, e.values);
   return e;
 }
-SO3d rotationOf(const ModelNumbers& m) {
+SO3d rotationIn(const ModelNumbers& m) {
   return SO3d::fromQuaternion(m[9], m[10], m[11], m[12]);
 }
-Vec3d translationOf(const ModelNumbers& m) {
+Vec3d translationIn(const ModelNumbers& m) {
   return {m[13], m[14], m[15]};
 }
 
@@ -87,7 +82,7 @@ void depthSigns(const Vec3d& turned, const Vec3d& second, const Vec3d& translati
 }
 
 bool isSameDirection(const ModelNumbers& a, const ModelNumbers& b) {
-  return std::abs(translationOf(a).dot(translationOf(b))) > kSameDirection;
+  return std::abs(translationIn(a).dot(translationIn(b))) > kSameDirection;
 }
 
 // Of the residuals within the threshold; a 1 for each of them.
@@ -167,7 +162,7 @@ ModelNumbers EssentialProblem::modelOf(const SO3d& rotation, const Vec3d& transl
 }
 
 SE3d EssentialProblem::poseOf(const ModelNumbers& model) {
-  return SE3d(rotationOf(model), translationOf(model));
+  return SE3d(rotationIn(model), translationIn(model));
 }
 
 std::size_t EssentialProblem::solve(const std::uint32_t* sample, ModelNumbers* models) const {
@@ -227,8 +222,8 @@ bool EssentialProblem::isInFront(const Mat3d& rotation, const Vec3d& translation
 }
 
 ModelNumbers EssentialProblem::oriented(const ModelNumbers& model) const {
-  const Vec3d t = translationOf(model);
-  const SO3d rotation = rotationOf(model);
+  const Vec3d t = translationIn(model);
+  const SO3d rotation = rotationIn(model);
   // Half a turn about t gives the other rotation of the same E.
   const SO3d half_turn = SO3d::fromQuaternion(t[0], t[1], t[2], 0);
   const Mat3d turns[2] = {rotation.matrix(), (half_turn * rotation).matrix()};
@@ -256,8 +251,8 @@ ModelNumbers EssentialProblem::oriented(const ModelNumbers& model) const {
 void EssentialProblem::exactSquaredResiduals(const ModelNumbers& any, double* squared) const {
   const ModelNumbers model = oriented(any);
   const Mat3d lines = matches_.linesOf(essentialOf(model));
-  const Mat3d rotation = rotationOf(model).matrix();
-  const Vec3d translation = translationOf(model);
+  const Mat3d rotation = rotationIn(model).matrix();
+  const Vec3d translation = translationIn(model);
   const double largest = 9 * threshold_ * threshold_;  // beyond it nobody asks for the side
   for (std::size_t i = 0; i < size(); ++i) {
     squared[i] = matches_.squared(lines.values, i);
@@ -278,9 +273,9 @@ std::size_t EssentialProblem::placeOf(const ModelNumbers&, std::size_t i, double
 }
 
 Mat<double, 9, 5> EssentialProblem::matrixByDelta(const ModelNumbers& model) {
-  const Mat3d rotation = rotationOf(model).matrix();
+  const Mat3d rotation = rotationIn(model).matrix();
   const Mat3d e = essentialOf(model);
-  const Mat<double, 3, 2> basis = basisOf(translationOf(model));
+  const Mat<double, 3, 2> basis = basisOf(translationIn(model));
   Mat<double, 9, 5> result;
   for (std::size_t k = 0; k < 5; ++k) {
     Vec3d axis{};
@@ -293,7 +288,7 @@ Mat<double, 9, 5> EssentialProblem::matrixByDelta(const ModelNumbers& model) {
 
 Mat<double, 6, 5> EssentialProblem::tangentByDelta(const ModelNumbers& model) {
   const Mat<double, 3, 2> turned =
-      rotationOf(model).matrix().transpose() * basisOf(translationOf(model));
+      rotationIn(model).matrix().transpose() * basisOf(translationIn(model));
   Mat<double, 6, 5> result{};
   for (std::size_t r = 0; r < 3; ++r) {
     result(r, 0) = turned(r, 0);
@@ -320,10 +315,10 @@ ModelNumbers EssentialProblem::retract(const ModelNumbers& model, const double* 
   for (std::size_t k = 0; k < 5; ++k) {
     if (!(std::abs(delta[k]) < 1e3)) return model;
   }
-  const Vec3d t = translationOf(model);
+  const Vec3d t = translationIn(model);
   const Vec3d moved = t + basisOf(t) * Vec<double, 2>{delta[0], delta[1]};
   const SO3d turn = SO3d::exp({delta[2], delta[3], delta[4]});
-  return modelOf((rotationOf(model) * turn).normalized(), moved);
+  return modelOf((rotationIn(model) * turn).normalized(), moved);
 }
 
 // Whether the camera only turned: the inliers that a rotation does not explain are no more than
@@ -332,8 +327,8 @@ bool EssentialProblem::examineRotation(const ModelNumbers& model,
                                        const std::vector<std::uint32_t>& inliers, double threshold,
                                        Examination& result) const {
   const double variance = threshold * threshold;
-  Mat3d turn = rotationOf(model).matrix();
-  SO3d rotation = rotationOf(model);
+  Mat3d turn = rotationIn(model).matrix();
+  SO3d rotation = rotationIn(model);
   for (const double tolerance : {16.0, 9.0, kPlaneTolerance, kPlaneTolerance}) {
     const Mat3d homography = matches_.homographyOf(turn);
     const Mat3d inverse = matches_.inverseHomographyOf(turn.transpose());
@@ -371,14 +366,14 @@ bool EssentialProblem::examineRotation(const ModelNumbers& model,
   across = std::max(across, n * 1e-4 * variance);
   const double ratio = (total - across) / across - 1;
   if (isBeyondChance(size() - all, inliers.size() - turned, 2, chance(threshold))) return false;
-  if (n * ratio > kLeastParallax + kParallaxNoise * std::sqrt(n)) return false;
+  if (n * ratio > kEnoughParallax + kParallaxNoise * std::sqrt(n)) return false;
   result.is_determined = false;
   result.degeneracy = Degeneracy::PureRotation;
   result.reason =
       "a rotation alone explains the inliers: the model's rotation can be relied on, its "
       "translation means nothing; take views that are farther apart";
   result.has_replacement = true;
-  result.replacement = modelOf(rotation, translationOf(model));
+  result.replacement = modelOf(rotation, translationIn(model));
   return true;
 }
 
@@ -449,9 +444,9 @@ void EssentialProblem::examinePlane(const ModelNumbers& model,
                                     const std::vector<std::uint32_t>& inliers, double threshold,
                                     Examination& result) const {
   const double largest = kPlaneTolerance * threshold * threshold;
-  const SO3d rotation = rotationOf(model);
+  const SO3d rotation = rotationIn(model);
   const HomographyFamily family = {matches_.homographyOf(rotation.matrix()),
-                                   matches_.epipoleOf(translationOf(model))};
+                                   matches_.epipoleOf(translationIn(model))};
   const PlaneFit plane = fitPlane(matches_, family, inliers, largest);
   if (!plane.is_found) return;
   const std::size_t rest =
@@ -467,7 +462,7 @@ void EssentialProblem::examinePlane(const ModelNumbers& model,
     }
   }
   SO3d turn = rotation;
-  Vec3d translation = translationOf(model);
+  Vec3d translation = translationIn(model);
   refinePlane(on_plane, turn, translation, normal);
   // Relief below the threshold, but above the noise: no plane, and the pose knows it.
   const Mat3d homography = matches_.homographyOf(turn.matrix() + outer(translation, normal));
@@ -559,7 +554,7 @@ void EssentialProblem::surveyTranslation(const ModelNumbers& found, const std::u
                                          double threshold, Examination& result) const {
   ModelNumbers model = result.has_replacement ? result.replacement : found;
   const EpipolarMatches trusted = matches_.picked(
-      withoutChanceParallax(matches_, rotationOf(model), inliers, chance(threshold)));
+      withoutChanceParallax(matches_, rotationIn(model), inliers, chance(threshold)));
   const EssentialProblem problem(trusted, threshold);
   // Both components of errors made the pose of a plane: lines alone know less.
   const bool is_of_plane = result.degeneracy == Degeneracy::Planar;

@@ -11,6 +11,13 @@ namespace gslam {
 inline namespace v1 {
 namespace detail {
 
+// Radians. What is known no better than that is not known.
+constexpr double kLargestRotationSigma = 0.1;
+
+// Models are as good as each other up to this difference of squared residuals, in variances: three
+// sigmas and a few matches at the threshold.
+constexpr double kAsGood = 12;
+
 // The matches whose byte is not 0.
 std::vector<std::uint32_t> indicesOf(const std::uint8_t* inliers, std::size_t size);
 

@@ -18,8 +18,6 @@ inline namespace v1 {
 namespace detail {
 namespace {
 
-// A match is on a plane within twice the threshold: its error has two components, not one.
-constexpr double kPlaneTolerance = 4;
 constexpr std::size_t kMostPairs = 500;
 constexpr std::size_t kMostOffPlane = 200;  // matches that models of pairs are compared with
 constexpr std::size_t kKept = 4;            // models of pairs that the loop is shown
@@ -42,9 +40,9 @@ double squareOf(const double* f) {
 }
 
 // x - 2 u (u x), where u takes the vector `v` to the axis.
-struct Reflection {
+struct Householder {
   double u[9];
-  Reflection(const double* v, std::size_t axis) {
+  Householder(const double* v, std::size_t axis) {
     double norm = 0;
     for (std::size_t k = 0; k < 9; ++k) u[k] = k < axis ? 0 : v[k], norm += u[k] * u[k];
     norm = std::sqrt(norm);
@@ -122,9 +120,9 @@ bool toRankTwo(double* f) {
 Mat<double, 9, 7> rankTwoTangents(const double* f) {
   double c[9];
   cofactors(f, c);
-  const Reflection first(f, 0);
+  const Householder first(f, 0);
   first.apply(c);
-  const Reflection second(c, 1);
+  const Householder second(c, 1);
   Mat<double, 9, 7> tangents;
   for (std::size_t k = 0; k < 7; ++k) {
     double column[9] = {};

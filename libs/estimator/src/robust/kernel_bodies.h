@@ -4,6 +4,7 @@
 namespace gslam {
 inline namespace v1 {
 namespace detail {
+namespace {
 namespace GSLAM_DETAIL_VARIANT {
 
 // e^2 / g of the plane: with lines m = E^T x2 and n = E x1, g = m0^2 + m1^2 + n0^2 + n1^2. The
@@ -97,7 +98,7 @@ inline void reprojectPlane(const float* p, float factor, const float* const* col
     const float inverse = 1 / depth;
     const float ru = a * inverse - u[j];
     const float rv = b * inverse - v[j];
-    const float behind = depth > 0 ? 0.0f : kInfinity;
+    const float behind = depth > 0 ? 0.0f : INFINITY;
     squared[j] = factor * (ru * ru + rv * rv) + behind;
   }
 }
@@ -119,18 +120,18 @@ inline void reprojectFrames(const float* p, float factor, const float* const* co
     const float inverse = 1 / depth;
     const float ru = (q0 * c[3][j] + q1 * c[4][j] + q2 * c[5][j]) * inverse;
     const float rv = (q0 * c[6][j] + q1 * c[7][j] + q2 * c[8][j]) * inverse;
-    const float behind = depth > 0 ? 0.0f : kInfinity;
+    const float behind = depth > 0 ? 0.0f : INFINITY;
     squared[j] = factor * (ru * ru + rv * rv) + behind;
   }
 }
 
 // Sum of products of two rows of a block.
 inline double dotBlock(const double* a, const double* b) {
-  double lanes[kLanes] = {};
+  double lanes[kBlockLanes] = {};
 #if GSLAM_HAS_VECTORS
-  using Wide = double __attribute__((vector_size(8 * kLanes)));
+  using Wide = double __attribute__((vector_size(8 * kBlockLanes)));
   Wide sum{};
-  for (std::size_t j = 0; j < kBlock; j += kLanes) {
+  for (std::size_t j = 0; j < kBlock; j += kBlockLanes) {
     Wide x, y;
     std::memcpy(&x, a + j, sizeof(x));
     std::memcpy(&y, b + j, sizeof(y));
@@ -138,8 +139,8 @@ inline double dotBlock(const double* a, const double* b) {
   }
   std::memcpy(lanes, &sum, sizeof(sum));
 #else
-  for (std::size_t j = 0; j < kBlock; j += kLanes) {
-    for (std::size_t l = 0; l < kLanes; ++l) lanes[l] += a[j + l] * b[j + l];
+  for (std::size_t j = 0; j < kBlock; j += kBlockLanes) {
+    for (std::size_t l = 0; l < kBlockLanes; ++l) lanes[l] += a[j + l] * b[j + l];
   }
 #endif
   return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
@@ -250,6 +251,7 @@ inline void reprojectBlock(const double* p, const PoseBlock& in, PoseSums& sums)
 }
 
 }  // namespace GSLAM_DETAIL_VARIANT
+}  // namespace
 }  // namespace detail
 }  // namespace v1
 }  // namespace gslam

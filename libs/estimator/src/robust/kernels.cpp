@@ -4,15 +4,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <limits>
-
-namespace gslam {
-inline namespace v1 {
-namespace detail {
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-}  // namespace detail
-}  // namespace v1
-}  // namespace gslam
 
 // The baseline has vectors of 128 bits on both x86-64 and arm64.
 #define GSLAM_DETAIL_VARIANT baseline

@@ -23,7 +23,7 @@ constexpr std::size_t kPlaneColumns = 5;   // X Y Z u v
 constexpr std::size_t kFrameColumns = 15;  // X Y Z, A (2 x 3), b, o
 
 constexpr std::size_t kBlock = 32;  // matches that are refined on together
-constexpr std::size_t kLanes = 4;
+constexpr std::size_t kBlockLanes = 4;
 
 // Squared residuals of matches [first, first + count) of columns of floats. The matrix has nine
 // elements for two views, twelve for poses; results are multiplied by the factor.

@@ -10,7 +10,7 @@ inline namespace v1 {
 namespace detail {
 namespace {
 
-constexpr std::size_t kRounds = 40;   // samples of three; enough where half is on the plane
+constexpr std::size_t kSamples = 40;  // samples of three; enough where half is on the plane
 constexpr std::size_t kTested = 150;  // matches that a sample is tested with
 
 // v of three rays and what it has to be there.
@@ -101,7 +101,7 @@ PlaneFit fitPlane(const EpipolarMatches& matches, const HomographyFamily& family
   RandomBits bits(count, 0x706c616e65);
   // The robust loop's order is a random one, so the first matches stand for all.
   const std::size_t tested = std::min<std::size_t>(count, kTested);
-  for (std::size_t round = 0; round < kRounds; ++round) {
+  for (std::size_t sample = 0; sample < kSamples; ++sample) {
     std::uint32_t three[3];
     for (std::uint32_t& i : three) i = indices[bits.below(count)];
     PlaneFit fit = planeOf(matches, family, three);

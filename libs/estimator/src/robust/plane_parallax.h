@@ -15,6 +15,10 @@ namespace gslam {
 inline namespace v1 {
 namespace detail {
 
+// Of squares: a match is on a plane, or turned only, within twice the threshold, since its error
+// has two components, not one.
+constexpr double kPlaneTolerance = 4;
+
 // The homographies of an epipolar geometry are base + epipole v^T, a plane v each: v x1 is the
 // inverse depth of what lies in it. In the coordinates of the matches.
 struct HomographyFamily {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/tangents.h"
+
 namespace gslam {
 inline namespace v1 {
 namespace detail {
@@ -10,15 +12,6 @@ namespace {
 
 Vec3d normalOf(const ModelNumbers& model) {
   return {{model[0], model[1], model[2]}};
-}
-
-// Two directions at right angles to n and to each other.
-void tangentsOf(const Vec3d& n, Vec3d& u, Vec3d& v) {
-  const double sign = std::copysign(1.0, n[2]);  // Duff et al., JCGT 6(1), 2017
-  const double a = -1 / (sign + n[2]);
-  const double b = n[0] * n[1] * a;
-  u = {{1 + sign * n[0] * n[0] * a, sign * b, -sign * n[0]}};
-  v = {{b, sign + n[1] * n[1] * a, -n[1]}};
 }
 
 }  // namespace
@@ -61,10 +54,10 @@ void PlaneProblem::squaredResidualsOfPairs(const ModelNumbers& model, std::size_
                                            std::size_t count, double* squared) const {
   if (shift == 0) return exactSquaredResiduals(model, squared);
   // Directions on a spiral from pole to equator: each half turn of the golden angle one.
-  constexpr std::size_t kDirections = 61;
+  constexpr std::size_t kSpiral = 61;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t number = (i + 7 * shift) % kDirections;
-    const double z = (static_cast<double>(number) + 0.5) / kDirections;
+    const std::size_t number = (i + 7 * shift) % kSpiral;
+    const double z = (static_cast<double>(number) + 0.5) / kSpiral;
     const double turn = 2.39996322972865332 * static_cast<double>(number);
     const double radius = std::sqrt(1 - z * z);
     const Vec3d n = {{radius * std::cos(turn), radius * std::sin(turn), z}};

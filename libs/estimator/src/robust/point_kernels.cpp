@@ -2,17 +2,7 @@
 
 #include <gslam/base/platform.h>
 
-#include <limits>
-
-namespace gslam {
-inline namespace v1 {
-namespace detail {
-namespace {
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-}  // namespace
-}  // namespace detail
-}  // namespace v1
-}  // namespace gslam
+#include <cmath>
 
 // Vectors of 128 bits are in what x86-64 and arm64 always have.
 #define GSLAM_POINT_VARIANT plain

@@ -20,7 +20,7 @@ inline void homography(const float* h, float factor, const float* const* columns
     const float inverse = 1 / w;
     const float du = (h0 * x1[i] + h1 * y1[i] + h2) * inverse - x2[i];
     const float dv = (h3 * x1[i] + h4 * y1[i] + h5) * inverse - y2[i];
-    squared[i] = factor * (du * du + dv * dv) + (w > 0 ? 0.0f : kInfinity);
+    squared[i] = factor * (du * du + dv * dv) + (w > 0 ? 0.0f : INFINITY);
   }
 }
 
@@ -38,7 +38,7 @@ inline void bearingHomography(const float* h, float factor, const float* const* 
     const float inverse = 1 / depth;
     const float du = (c[6][i] * x + c[7][i] * y + c[8][i] * z) * inverse;
     const float dv = (c[9][i] * x + c[10][i] * y + c[11][i] * z) * inverse;
-    squared[i] = factor * (du * du + dv * dv) + (depth > 0 ? 0.0f : kInfinity);
+    squared[i] = factor * (du * du + dv * dv) + (depth > 0 ? 0.0f : INFINITY);
   }
 }
 

@@ -21,14 +21,11 @@ namespace detail {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-// What is known no better than that is not known: radians, and of the distance of the points.
-constexpr double kLargestRotationSigma = 0.1;
-constexpr double kLargestDistanceSigma = 0.3;
+constexpr double kLargestDistanceSigma = 0.3;  // of that of the points, see kLargestRotationSigma
 // Squares of how far points may be from a line, or a place, as parts of their extent: rounding.
 constexpr double kOnLine = 1e-14;
 constexpr double kFlat = 0.05;          // the same of a plane, whose second pose is to be tried
 constexpr double kSameRotation = 0.02;  // radians
-constexpr double kAsGood = 12;          // of a difference of squares, in variances
 
 SE3d poseOf(const ModelNumbers& m) {
   return SE3d(SO3d::fromQuaternion(m[0], m[1], m[2], m[3]), {m[4], m[5], m[6]});

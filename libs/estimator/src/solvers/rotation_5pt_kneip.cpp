@@ -269,14 +269,14 @@ struct Rotations {
 
   // Both or none, so that their number stays even.
   void add(const Quaternion& candidate, const Quaternion& partner) noexcept {
-    constexpr double kSameSquare = 1e-14;  // solutions near each other are found no better
+    constexpr double kNearSquare = 1e-14;  // solutions near each other are found no better
     for (std::size_t i = 0; i < count; ++i) {
       double minus = 0, plus = 0;
       for (std::size_t k = 0; k < 4; ++k) {
         minus += (q[i][k] - candidate[k]) * (q[i][k] - candidate[k]);
         plus += (q[i][k] + candidate[k]) * (q[i][k] + candidate[k]);
       }
-      if (minus < kSameSquare || plus < kSameSquare) return;
+      if (minus < kNearSquare || plus < kNearSquare) return;
     }
     if (count == 20) return;
     for (std::size_t k = 0; k < 4; ++k) {
