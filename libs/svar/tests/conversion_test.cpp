@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "error_text.h"
+#include "int64_limits.h"
 
 namespace {
 
@@ -17,8 +18,6 @@ using gslam::Svar;
 using gslam::SvarError;
 using gslam::SvarType;
 
-constexpr std::int64_t kMin64 = std::numeric_limits<std::int64_t>::min();
-constexpr std::int64_t kMax64 = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kTwoTo53 = std::int64_t(1) << 53;
 
 // Pointers are no bools, characters no numbers; a write to what operator[] gives is not silent.

@@ -9,30 +9,22 @@
 #include <vector>
 
 #include "error_text.h"
+#include "nested.h"
 
 namespace {
 
 using gslam::Svar;
 using gslam::SvarError;
 
-Svar makeConfig() {
+Svar thawed() {
   return Svar::object({{"fps", 30},
                        {"a.b", 1},
                        {"none", nullptr},
                        {"camera", Svar::array({Svar::object({{"fx", 535.4}}), Svar::array()})}});
 }
 
-Svar nested(int depth) {
-  Svar value;
-  for (int i = 0; i < depth; ++i) {
-    Svar outer = i % 3 == 0 ? Svar::object({{"a", value}}) : Svar::array({value});
-    value = std::move(outer);
-  }
-  return value;
-}
-
 TEST(Frozen, IsAnEqualCopy) {
-  Svar config = makeConfig();
+  Svar config = thawed();
   const Svar frozen = config.frozen();
   EXPECT_EQ(frozen, config);
   EXPECT_EQ(frozen.hash(), config.hash());
@@ -41,7 +33,7 @@ TEST(Frozen, IsAnEqualCopy) {
   EXPECT_FALSE(config.isFrozen());
   config.set("fps", 60);
   config.set("camera.0.fx", 1);
-  EXPECT_EQ(frozen, makeConfig());
+  EXPECT_EQ(frozen, thawed());
 }
 
 TEST(Frozen, AreAllButArraysAndObjectsFromTheBeginning) {
@@ -56,7 +48,7 @@ TEST(Frozen, AreAllButArraysAndObjectsFromTheBeginning) {
 }
 
 TEST(Frozen, RefusesAllWrites) {
-  Svar frozen = makeConfig().frozen();
+  Svar frozen = thawed().frozen();
   EXPECT_EQ(errorText([&] { frozen.set("fps", 1); }),
             "fps: cannot be changed: the object of 4 is frozen; clone() it first");
   EXPECT_EQ(errorText([&] { frozen.set("/camera/-", 1); }),
@@ -72,11 +64,11 @@ TEST(Frozen, RefusesAllWrites) {
     EXPECT_THROW(frozen.erase(path), SvarError) << path;
   }
   EXPECT_FALSE(frozen.erase("new"));
-  EXPECT_EQ(frozen, makeConfig());
+  EXPECT_EQ(frozen, thawed());
 }
 
 TEST(Frozen, RefusesWritesThroughHandlesOfItsParts) {
-  const Svar frozen = makeConfig().frozen();
+  const Svar frozen = thawed().frozen();
   Svar camera = frozen["camera"];
   EXPECT_TRUE(camera.isFrozen());
   EXPECT_EQ(errorText([&] { camera.push_back(1); }),
@@ -85,7 +77,7 @@ TEST(Frozen, RefusesWritesThroughHandlesOfItsParts) {
   EXPECT_THROW(camera.erase("0"), SvarError);
   for (const Svar& element : frozen["camera"]) EXPECT_TRUE(element.isFrozen());
   camera = 7;  // only this handle
-  EXPECT_EQ(frozen, makeConfig());
+  EXPECT_EQ(frozen, thawed());
 }
 
 TEST(Frozen, MayStandInWhatIsNot) {
@@ -113,7 +105,7 @@ TEST(Frozen, SharesWhatIsFrozenAlready) {
 }
 
 TEST(Frozen, CloneCanBeWritten) {
-  const Svar frozen = makeConfig().frozen();
+  const Svar frozen = thawed().frozen();
   Svar copy = frozen.clone();
   EXPECT_FALSE(copy.isFrozen());
   copy.set("camera.0.fx", 1.5);
@@ -121,12 +113,12 @@ TEST(Frozen, CloneCanBeWritten) {
   copy.set("none.x", 3);
   EXPECT_TRUE(copy.erase("a.b"));
   EXPECT_EQ(copy.get<double>("camera.0.fx"), 1.5);
-  EXPECT_EQ(frozen, makeConfig());
+  EXPECT_EQ(frozen, thawed());
   Svar merged = frozen.merged(Svar::object({{"fps", 60}}).frozen());
   merged.set("camera.0.fx", 1);
   Svar patched = frozen.patched(Svar::array());
   patched.set("fps", 1);
-  EXPECT_EQ(frozen, makeConfig());
+  EXPECT_EQ(frozen, thawed());
 }
 
 TEST(Frozen, CannotContainItself) {
@@ -151,7 +143,7 @@ TEST(Frozen, DeepValuesDoNotOverflowTheStack) {
 }
 
 TEST(FrozenThreads, ReadCopyAndDestroyOneValue) {
-  Svar config = makeConfig().frozen();
+  Svar config = thawed().frozen();
   std::vector<std::thread> threads;
   for (int t = 0; t < 8; ++t) {
     threads.emplace_back([config] {
@@ -168,7 +160,7 @@ TEST(FrozenThreads, ReadCopyAndDestroyOneValue) {
         own.set("camera.0.fx", i);
         ASSERT_EQ(config.merged(own), own);
         ASSERT_EQ(config.patched(config.diff(own)), own);
-        ASSERT_EQ(gslam::printJson(config).size(), gslam::printJson(makeConfig()).size());
+        ASSERT_EQ(gslam::printJson(config).size(), gslam::printJson(thawed()).size());
       }
     });
   }
@@ -177,7 +169,7 @@ TEST(FrozenThreads, ReadCopyAndDestroyOneValue) {
 }
 
 TEST(FrozenThreads, EachMayPutItIntoItsOwnValues) {
-  const Svar part = makeConfig().frozen();
+  const Svar part = thawed().frozen();
   std::vector<std::thread> threads;
   for (int t = 0; t < 4; ++t) {
     threads.emplace_back([&part] {

@@ -9,21 +9,12 @@
 #include <vector>
 
 #include "error_text.h"
+#include "nested.h"
 
 namespace {
 
 using gslam::Svar;
 using gslam::SvarError;
-
-// [[[...]]] in turns with {"a": {"a": ...}}: overflows the stack of whatever recurses.
-Svar nested(int depth) {
-  Svar value;
-  for (int i = 0; i < depth; ++i) {
-    Svar outer = i % 3 == 0 ? Svar::object({{"a", value}}) : Svar::array({value});
-    value = std::move(outer);
-  }
-  return value;
-}
 
 TEST(Handle, ScalarsAndStringsAreValues) {
   Svar a = 1, b = a;

@@ -23,7 +23,7 @@ using gslam::Svar;
 
 namespace {
 
-struct Camera {
+struct Lens {
   double fx = 1;
   std::vector<float> k;
 };
@@ -37,11 +37,11 @@ struct Native {
 namespace gslam {
 
 template <>
-struct SvarTraits<Camera> : SvarFields<Camera> {
+struct SvarTraits<Lens> : SvarFields<Lens> {
   template <class Visit>
   static void fields(Visit& visit) {
-    visit("fx", &Camera::fx);
-    visit("k", &Camera::k);
+    visit("fx", &Lens::fx);
+    visit("k", &Lens::k);
   }
 };
 
@@ -59,7 +59,7 @@ static bool byIndex(const Svar& list) {
   return list[I(0)] == list[0];
 }
 
-static int twice(int x) {
+static int doubled(int x) {
   return 2 * x;
 }
 
@@ -67,17 +67,17 @@ static bool callAll(const std::string& text) {
   const auto native = std::make_shared<Native>();
   const Svar length =
       Svar::function([](const std::string& s, std::size_t n) { return s.size() + n; });
-  const Svar change = Svar::function([](Native& n, const Camera& by) { n.sum += by.fx; });
+  const Svar change = Svar::function([](Native& n, const Lens& by) { n.sum += by.fx; });
   const Svar count = Svar::function([](gslam::Span<const Svar> args) { return args.size(); });
   std::string own = text;
   const Svar next = Svar::function([own]() mutable -> std::string& { return own += "x"; });
   const std::function<Svar(std::vector<double> &&)> front = [](std::vector<double>&& list) {
     return Svar(list.empty() ? 0.0 : list.front());
   };
-  change(native, Camera());
+  change(native, Lens());
   return length(text, 1).is<int>() && count(1, 2.0, "three").as<int>() == 3 &&
          next().is<std::string>() && Svar::function(front)(std::vector<int>{1}).is<double>() &&
-         Svar::function(twice).apply(std::vector<Svar>{2}) == 4 && !change.signature().empty() &&
+         Svar::function(doubled).apply(std::vector<Svar>{2}) == 4 && !change.signature().empty() &&
          Svar(native).as<std::shared_ptr<const Native>>()->sum > 0;
 }
 
@@ -85,12 +85,12 @@ static bool convertAll(Svar& root, const std::string& text) {
   root.set("map", std::map<std::string, std::set<int>>{{text, {1, 2}}});
   root.set("tuple", std::make_tuple(1, text, std::array<float, 2>{{1, 2}}));
   root.set("bytes", Svar::binary(text.data(), text.size()));
-  root.set("camera", Camera());
+  root.set("camera", Lens());
   bool good =
       root.get<std::map<std::string, std::vector<double>>>("map").size() == 1 &&
       std::get<1>(root.get<std::tuple<short, std::string, std::vector<int>>>("tuple")) == text &&
       root.get<std::vector<std::uint8_t>>("bytes").size() == text.size() &&
-      root.get<Camera>("camera").k.empty() && root.get<Camera>("none", Camera()).fx > 0;
+      root.get<Lens>("camera").k.empty() && root.get<Lens>("none", Lens()).fx > 0;
 #if __cplusplus >= 201703L
   root.set("/optional", std::optional<int>(3));
   good = good && root.get<std::optional<int>>("optional") == 3;

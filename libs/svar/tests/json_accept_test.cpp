@@ -6,25 +6,22 @@
 #include <limits>
 #include <string>
 
+#include "bytes.h"
+#include "int64_limits.h"
+
 namespace {
 
 using gslam::JsonOptions;
 using gslam::parseJson;
 using gslam::Svar;
 
-struct Case {
+struct AcceptCase {
   const char* name;
   std::string text;
   Svar value;
 };
 
-// A literal with all its bytes, zero bytes among them.
-template <std::size_t size>
-std::string bytes(const char (&text)[size]) {
-  return std::string(text, size - 1);
-}
-
-void check(const Case* cases, std::size_t count, const JsonOptions& options = JsonOptions()) {
+void check(const AcceptCase* cases, std::size_t count, const JsonOptions& options = JsonOptions()) {
   for (std::size_t i = 0; i < count; ++i) {
     SCOPED_TRACE(cases[i].name);
     try {
@@ -39,7 +36,7 @@ void check(const Case* cases, std::size_t count, const JsonOptions& options = Js
 }
 
 template <std::size_t count>
-void check(const Case (&cases)[count], const JsonOptions& options = JsonOptions()) {
+void check(const AcceptCase (&cases)[count], const JsonOptions& options = JsonOptions()) {
   check(cases, count, options);
 }
 
@@ -50,11 +47,8 @@ Svar named(std::initializer_list<Svar::Member> members) {
   return Svar::object(members);
 }
 
-constexpr std::int64_t kMin64 = std::numeric_limits<std::int64_t>::min();
-constexpr std::int64_t kMax64 = std::numeric_limits<std::int64_t>::max();
-
 TEST(JsonAccept, Structure) {
-  const Case cases[] = {
+  const AcceptCase cases[] = {
       {"null", "null", nullptr},
       {"true", "true", true},
       {"false", "false", false},
@@ -87,7 +81,7 @@ TEST(JsonAccept, Structure) {
 }
 
 TEST(JsonAccept, Names) {
-  const Case cases[] = {
+  const AcceptCase cases[] = {
       {"empty_name", "{\"\":0}", named({{"", 0}})},
       {"name_with_dot", "{\"a.b\":0}", named({{"a.b", 0}})},
       {"name_with_escapes", "{\"\\u0061\\n\\\"\":0}", named({{"a\n\"", 0}})},
@@ -106,7 +100,7 @@ TEST(JsonAccept, Names) {
 }
 
 TEST(JsonAccept, Integers) {
-  const Case cases[] = {
+  const AcceptCase cases[] = {
       {"zero", "0", 0},
       {"minus_zero", "-0", -0.0},
       {"one_digit", "[7]", list({7})},
@@ -127,7 +121,7 @@ TEST(JsonAccept, Integers) {
 
 TEST(JsonAccept, Doubles) {
   const double inf = std::numeric_limits<double>::infinity();
-  const Case cases[] = {
+  const AcceptCase cases[] = {
       {"zero_point_zero", "0.0", 0.0},
       {"minus_zero_point_zero", "-0.0", -0.0},
       {"half", "0.5", 0.5},
@@ -163,7 +157,7 @@ TEST(JsonAccept, Doubles) {
 }
 
 TEST(JsonAccept, Strings) {
-  const Case cases[] = {
+  const AcceptCase cases[] = {
       {"short_escapes", R"("\"\\\/\b\f\n\r\t")", "\"\\/\b\f\n\r\t"},
       {"backslash_before_n", R"("\\n")", "\\n"},
       {"two_backslashes_before_n", R"("\\\\n")", "\\\\n"},
@@ -223,7 +217,7 @@ TEST(JsonAccept, Strings) {
 
 // Where RFC 8259 leaves a choice, this is ours; the other choices are among what is rejected.
 TEST(JsonAccept, ByChoice) {
-  const Case cases[] = {
+  const AcceptCase cases[] = {
       {"byte_order_mark", "\xEF\xBB\xBF[1]", list({1})},
       {"too_small_is_zero", "1e-400", 0.0},
       {"far_too_small_is_zero", "-123.456e-99999999999999999999", -0.0},
@@ -239,7 +233,7 @@ TEST(JsonAccept, ByChoice) {
 TEST(JsonAccept, CommentsOnRequest) {
   JsonOptions options;
   options.comments = true;
-  const Case cases[] = {
+  const AcceptCase cases[] = {
       {"line_before", "// fps\n1", 1},
       {"line_after", "1 // fps", 1},
       {"line_with_carriage_return", "[1, // fps\r\n2]", list({1, 2})},

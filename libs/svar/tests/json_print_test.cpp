@@ -15,7 +15,7 @@ using gslam::parseJson;
 using gslam::printJson;
 using gslam::Svar;
 
-struct Case {
+struct PrintCase {
   const char* name;
   Svar value;
   std::string text;
@@ -36,7 +36,7 @@ TEST(JsonPrint, RefusesWhatJsonHasNoWordFor) {
 }
 
 TEST(JsonPrint, Compact) {
-  const Case cases[] = {
+  const PrintCase cases[] = {
       {"null", nullptr, "null"},
       {"true", true, "true"},
       {"false", false, "false"},
@@ -69,7 +69,7 @@ TEST(JsonPrint, Compact) {
        R"({"b":1,"a":{"":true}})"},
       {"escapes_in_name", Svar::object({{"a\"\n", 1}}), R"({"a\"\n":1})"},
   };
-  for (const Case& one : cases) {
+  for (const PrintCase& one : cases) {
     SCOPED_TRACE(one.name);
     EXPECT_EQ(printJson(one.value), one.text);
     EXPECT_EQ(parseJson(one.text), one.value);

@@ -16,12 +16,6 @@ struct Case {
   std::string error;  // without the name of the source
 };
 
-// A literal with all its bytes, zero bytes among them.
-template <std::size_t size>
-std::string bytes(const char (&text)[size]) {
-  return std::string(text, size - 1);
-}
-
 inline std::string errorOf(const std::string& text, const gslam::JsonOptions& options) {
   try {
     gslam::parseJson(text, "JSON", options);

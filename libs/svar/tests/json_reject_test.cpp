@@ -6,9 +6,10 @@
 
 #include <string>
 
+#include "bytes.h"
+
 namespace {
 
-using json_reject::bytes;
 using json_reject::Case;
 using json_reject::check;
 using json_reject::errorOf;

@@ -5,11 +5,11 @@
 
 #include <string>
 
+#include "bytes.h"
 #include "json_reject.h"
 
 namespace {
 
-using json_reject::bytes;
 using json_reject::Case;
 using json_reject::check;
 

@@ -14,14 +14,14 @@ using gslam::Svar;
 using parse_error::bytes;
 using parse_error::xmlError;
 
-struct Case {
+struct XmlAsJson {
   const char* name;
   const char* xml;
   const char* json;
 };
 
 TEST(XmlParse, Convention) {
-  const Case cases[] = {
+  const XmlAsJson cases[] = {
       {"int", "<fps>30</fps>", "30"},
       {"double", "<a>-1.5e3</a>", "-1500.0"},
       {"bool", "<a>true</a>", "true"},
@@ -60,7 +60,7 @@ TEST(XmlParse, Convention) {
       {"byte_order_mark", "\xEF\xBB\xBF<a>1</a>", "1"},
       {"beyond_ascii", "<n\xC3\xA4>\xC3\xA9</n\xC3\xA4>", "\"\xC3\xA9\""},
   };
-  for (const Case& one : cases) {
+  for (const XmlAsJson& one : cases) {
     SCOPED_TRACE(one.name);
     EXPECT_EQ(parseXml(one.xml), parseJson(one.json));
   }

@@ -19,14 +19,14 @@ using parse_error::xmlError;
 const std::string kHead = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
 const std::string kMarked = " xmlns:svar=\"urn:gslam:svar\"";
 
-struct Case {
+struct PrintedXml {
   const char* name;
   Svar value;
   std::string text;  // without the head
 };
 
 TEST(XmlPrint, Values) {
-  const Case cases[] = {
+  const PrintedXml cases[] = {
       {"null", nullptr, "<svar/>"},
       {"bool", true, "<svar>true</svar>"},
       {"int", 30, "<svar>30</svar>"},
@@ -69,7 +69,7 @@ TEST(XmlPrint, Values) {
            "svar:name=\"@xmlns:svar\">x</item>\n</svar>"},
       {"mixed", Svar::object({{"#text", "a b"}, {"c", 1}}), "<svar>a b\n  <c>1</c>\n</svar>"},
   };
-  for (const Case& one : cases) {
+  for (const PrintedXml& one : cases) {
     SCOPED_TRACE(one.name);
     EXPECT_EQ(printXml(one.value), kHead + one.text);
     EXPECT_EQ(parseXml(one.text), one.value);
@@ -177,13 +177,13 @@ TEST(XmlLimit, OddTextsTakeLinearTime) {
 }
 
 // Whatever is left of a text, and whatever one byte of it becomes: a value, or a ParseError.
-const char kSample[] =
+const char kXmlSample[] =
     "<?xml version=\"1.0\"?>\n<!DOCTYPE a [<!ELEMENT a ANY>]>\n"
     "<a xmlns:svar=\"urn:gslam:svar\" b='&lt;1' c=\"x\">t<!-- c --><d "
     "svar:type=\"array\"><i>1</i></d>\n"
     "<e svar:name=\"f g\">&#65;</e><h/><h> 2.5 </h><![CDATA[<&]]>\xC3\xA9</a>\n";
 
-void mustEnd(const std::string& text) {
+void xmlMustEnd(const std::string& text) {
   try {
     const Svar value = parseXml(text);
     EXPECT_EQ(parseXml(printXml(value)), value) << text;
@@ -193,23 +193,23 @@ void mustEnd(const std::string& text) {
 }
 
 TEST(XmlLimit, CutAnywhere) {
-  const std::string sample = kSample;
+  const std::string sample = kXmlSample;
   EXPECT_EQ(xmlError(sample), "accepted");
   for (std::size_t size = 0; size < sample.size(); ++size) {
-    mustEnd(sample.substr(0, size));
-    mustEnd(sample.substr(size));
-    mustEnd("<opencv_storage type_id=\"opencv-matrix\">" + sample.substr(size) +
-            "</opencv_storage>");
+    xmlMustEnd(sample.substr(0, size));
+    xmlMustEnd(sample.substr(size));
+    xmlMustEnd("<opencv_storage type_id=\"opencv-matrix\">" + sample.substr(size) +
+               "</opencv_storage>");
   }
 }
 
 TEST(XmlLimit, AnyByteBroken) {
   const std::string bytes = parse_error::bytes("\0\n []<>/&;#'\"=!?-:\x80\xFF~0a");
-  for (std::size_t i = 0; i + 1 < sizeof(kSample); ++i) {
+  for (std::size_t i = 0; i + 1 < sizeof(kXmlSample); ++i) {
     for (const char byte : bytes) {
-      std::string text = kSample;
+      std::string text = kXmlSample;
       text[i] = byte;
-      mustEnd(text);
+      xmlMustEnd(text);
     }
   }
 }

@@ -126,13 +126,13 @@ TEST(YamlLimit, PrintingDeepValues) {
 }
 
 // Whatever is left of a text, and whatever one byte of it becomes: a value, or a ParseError.
-const char kSample[] =
+const char kYamlSample[] =
     "%TAG ! tag:a.b,2000:\n--- # c\na: &x [1, 'it''s', \"q\\u00e9\\n\", {b: ~}]\n? c\n: *x\n"
     "d: |2-\n   text\n\ne: >+\n folded\n text\n\nf: !!int \"12\"\n<<: {g: .inf, h: 0x1F}\n"
     "m: !!opencv-matrix\n  rows: 1\n  cols: 2\n  dt: \"1f\"\n  data: [1., .5]\n...\n---\n- - x\n  "
     "- \xC3\xA9\n";
 
-void mustEnd(const std::string& text) {
+void yamlMustEnd(const std::string& text) {
   try {
     for (const Svar& value : gslam::parseYamlDocuments(text)) {
       const Svar again = parseYaml(gslam::printYaml(value));
@@ -144,22 +144,22 @@ void mustEnd(const std::string& text) {
 }
 
 TEST(YamlLimit, CutAnywhere) {
-  const std::string sample = kSample;
+  const std::string sample = kYamlSample;
   EXPECT_EQ(gslam::parseYamlDocuments(sample).size(), 2u);
   for (std::size_t size = 0; size < sample.size(); ++size) {
-    mustEnd(sample.substr(0, size));
-    mustEnd(sample.substr(size));
-    mustEnd("%YAML:1.0\n" + sample.substr(size));
+    yamlMustEnd(sample.substr(0, size));
+    yamlMustEnd(sample.substr(size));
+    yamlMustEnd("%YAML:1.0\n" + sample.substr(size));
   }
 }
 
 TEST(YamlLimit, AnyByteBroken) {
   const std::string bytes = parse_error::bytes("\0\x04\n\t []{}:,-?&*!|>'\"%@#\x80\xFF~<0");
-  for (std::size_t i = 0; i + 1 < sizeof(kSample); ++i) {
+  for (std::size_t i = 0; i + 1 < sizeof(kYamlSample); ++i) {
     for (const char byte : bytes) {
-      std::string text = kSample;
+      std::string text = kYamlSample;
       text[i] = byte;
-      mustEnd(text);
+      yamlMustEnd(text);
     }
   }
 }

@@ -14,7 +14,7 @@ using gslam::parseYaml;
 using gslam::printYaml;
 using gslam::Svar;
 
-struct Case {
+struct PrintedYaml {
   const char* name;
   Svar value;
   std::string text;
@@ -22,7 +22,7 @@ struct Case {
 
 TEST(YamlPrint, Scalars) {
   const double infinity = std::numeric_limits<double>::infinity();
-  const Case cases[] = {
+  const PrintedYaml cases[] = {
       {"null", nullptr, "null"},
       {"true", true, "true"},
       {"int", -30, "-30"},
@@ -57,7 +57,7 @@ TEST(YamlPrint, Scalars) {
       {"empty_array", Svar::array(), "[]"},
       {"empty_object", Svar::object(), "{}"},
   };
-  for (const Case& one : cases) {
+  for (const PrintedYaml& one : cases) {
     SCOPED_TRACE(one.name);
     EXPECT_EQ(printYaml(one.value), one.text);
     EXPECT_EQ(parseYaml(one.text), one.value);

@@ -15,14 +15,14 @@ using gslam::parseYamlDocuments;
 using gslam::Svar;
 using parse_error::yamlError;
 
-struct Case {
+struct YamlAsJson {
   const char* name;
   const char* yaml;
   const char* json;
 };
 
 // The examples of chapter 2, "Language Overview", with values as by the core schema.
-const Case kExamples[] = {
+const YamlAsJson kExamples[] = {
     {"2.1", "- Mark McGwire\n- Sammy Sosa\n- Ken Griffey\n",
      R"(["Mark McGwire", "Sammy Sosa", "Ken Griffey"])"},
     {"2.2", "hr:  65    # Home runs\navg: 0.278 # Batting average\nrbi: 147   # Runs Batted In\n",
@@ -118,13 +118,13 @@ const Case kExamples[] = {
 };
 
 TEST(YamlStructure, ExamplesOfTheSpecification) {
-  for (const Case& one : kExamples) {
+  for (const YamlAsJson& one : kExamples) {
     SCOPED_TRACE(one.name);
     EXPECT_EQ(parseYaml(one.yaml), parseJson(one.json));
   }
 }
 
-const Case kOthers[] = {
+const YamlAsJson kOthers[] = {
     {"nested_blocks", "- - 1\n  - 2\n- a: 1\n  b:\n  - c\n-\n",
      R"([[1, 2], {"a": 1, "b": ["c"]}, null])"},
     {"compact_members", "[a: 1, b, ? c : 2]", R"([{"a": 1}, "b", {"c": 2}])"},
@@ -153,7 +153,7 @@ const Case kOthers[] = {
 TEST(YamlStructure, Others) {
   gslam::YamlOptions options;
   options.allow_duplicate_names = true;
-  for (const Case& one : kOthers) {
+  for (const YamlAsJson& one : kOthers) {
     SCOPED_TRACE(one.name);
     EXPECT_EQ(parseYaml(one.yaml, "YAML", options), parseJson(one.json));
   }
@@ -185,7 +185,7 @@ TEST(YamlStructure, AliasesAreCopies) {
 }
 
 TEST(YamlStructure, MergeKeys) {
-  const Case cases[] = {
+  const YamlAsJson cases[] = {
       {"one", "x: &x {a: 1, b: 2}\ny:\n  <<: *x\n  b: 3\n",
        R"({"x": {"a": 1, "b": 2}, "y": {"a": 1, "b": 3}})"},
       {"own_names_before", "x: &x {a: 1, b: 2}\ny:\n  b: 3\n  <<: *x\n",
@@ -199,7 +199,7 @@ TEST(YamlStructure, MergeKeys) {
       {"quoted_is_a_name", "'<<': {a: 1}", R"({"<<": {"a": 1}})"},
       {"anchored_inside", "a: {<<: &x {k: [1]}}\nb: *x", R"({"a": {"k": [1]}, "b": {"k": [1]}})"},
   };
-  for (const Case& one : cases) {
+  for (const YamlAsJson& one : cases) {
     SCOPED_TRACE(one.name);
     EXPECT_EQ(parseYaml(one.yaml), parseJson(one.json));
   }
