@@ -19,7 +19,7 @@ using gslam::Pending;
 using gslam::SubscribeOptions;
 using gslam::Subscriber;
 
-std::vector<SubscribeOptions> queues() {
+std::vector<SubscribeOptions> countedQueues() {
   return {inOwnThread(), inOwnThread().keepLast(1000),
           onExecutor(std::make_shared<gslam::ThreadPool>(1))};
 }
@@ -42,7 +42,7 @@ class Turnstile {
 };
 
 TEST(Counts, OfAQueueSayWhatWaitsBehindTheCallback) {
-  for (const SubscribeOptions& options : queues()) {
+  for (const SubscribeOptions& options : countedQueues()) {
     const Messenger messenger;
     Turnstile turnstile;
     Subscriber subscriber =
@@ -62,7 +62,7 @@ TEST(Counts, OfAQueueSayWhatWaitsBehindTheCallback) {
 
 // Two that wait go at once to the consumer without bound, where the end drops one of them.
 TEST(Counts, OfWhatWasDroppedStayAfterTheEnd) {
-  for (const SubscribeOptions& options : queues()) {
+  for (const SubscribeOptions& options : countedQueues()) {
     const Messenger messenger;
     Turnstile turnstile;
     Subscriber subscriber =
@@ -89,7 +89,7 @@ TEST(Counts, OfWhatWasDroppedStayAfterTheEnd) {
 }
 
 TEST(Counts, OfAFullQueueStayAfterTheEnd) {
-  for (const SubscribeOptions& options : queues()) {
+  for (const SubscribeOptions& options : countedQueues()) {
     const Messenger messenger;
     Turnstile turnstile;
     Subscriber subscriber =

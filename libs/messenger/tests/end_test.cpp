@@ -22,7 +22,7 @@ using gslam::SubscribeOptions;
 using gslam::Subscriber;
 using std::chrono::milliseconds;
 
-std::vector<SubscribeOptions> allDeliveries() {
+std::vector<SubscribeOptions> deliveriesToEnd() {
   return {SubscribeOptions(), inOwnThread(), inOwnThread().keepLast(8),
           onExecutor(std::make_shared<gslam::ThreadPool>(1))};
 }
@@ -49,7 +49,7 @@ class SlowCall {
 };
 
 TEST(End, OfAPatternWaitsAlsoWhenTheMessengerIsGone) {
-  for (const SubscribeOptions& options : allDeliveries()) {
+  for (const SubscribeOptions& options : deliveriesToEnd()) {
     const SlowCall call;
     Publisher<int> publisher;
     Subscriber subscriber;
@@ -79,7 +79,7 @@ TEST(End, OfAPatternThatIsKeptComesWithTheMessenger) {
 
 // The first of two ends waits; so must the second.
 TEST(End, WaitsAlsoWhereAnotherIsAboutIt) {
-  for (const SubscribeOptions& options : allDeliveries()) {
+  for (const SubscribeOptions& options : deliveriesToEnd()) {
     for (const bool any : {false, true}) {
       const Messenger messenger;
       const SlowCall call;
@@ -100,7 +100,7 @@ TEST(End, WaitsAlsoWhereAnotherIsAboutIt) {
 
 // The first end comes from a callback and so does not wait.
 TEST(End, WaitsForTheCallbackThatShutsDown) {
-  for (const SubscribeOptions& options : allDeliveries()) {
+  for (const SubscribeOptions& options : deliveriesToEnd()) {
     const Messenger messenger;
     const SlowCall call;
     Subscriber subscriber = messenger.subscribe<int>("n", options, [&](const int&) {

@@ -7,13 +7,13 @@
 #include <memory>
 #include <string>
 
-struct Stamped {
+struct Dated {
   std::int64_t stamp;
 };
 
 template class gslam::Publisher<int>;
 template class gslam::Inbox<std::string>;
-template class gslam::Synchronizer<Stamped, Stamped>;
+template class gslam::Synchronizer<Dated, Dated>;
 
 struct View {
   void show(const int&) {}
@@ -30,11 +30,10 @@ int instantiateMessenger(const gslam::Messenger& messenger) {
   messenger.advertise<int>("/n").publish(1);
   messenger.publish<int>("/n", 2);
   messenger.serve<int, std::string>("/s", [](const int& n) { return std::to_string(n); }).keep();
-  const auto nothing = [](const Stamped&, const Stamped&) {};
-  gslam::Synchronizer<Stamped, Stamped>(messenger, {"/a", "/b"}, gslam::exactTime(), 1, nothing)
+  const auto nothing = [](const Dated&, const Dated&) {};
+  gslam::Synchronizer<Dated, Dated>(messenger, {"/a", "/b"}, gslam::exactTime(), 1, nothing)
       .unsubscribe();
-  gslam::Synchronizer<Stamped, Stamped>(messenger, {"/a", "/b"}, gslam::approximateTime(), 1,
-                                        nothing)
+  gslam::Synchronizer<Dated, Dated>(messenger, {"/a", "/b"}, gslam::approximateTime(), 1, nothing)
       .unsubscribe();
   const std::string answer =
       messenger.call<int, std::string>("/s", 3, std::chrono::milliseconds(10));

@@ -11,7 +11,7 @@ namespace {
 
 using testing::ElementsAre;
 
-struct Stamped {
+struct InNanoseconds {
   std::int64_t stamp;
 };
 struct Ros1Image {
@@ -48,7 +48,7 @@ struct MessageStamp<InMicroseconds> {
 namespace {
 
 TEST(MessageStamp, IsFound) {
-  EXPECT_EQ(gslam::MessageStamp<Stamped>::nanoseconds({-3}), -3);
+  EXPECT_EQ(gslam::MessageStamp<InNanoseconds>::nanoseconds({-3}), -3);
   EXPECT_EQ(gslam::MessageStamp<Ros1Image>::nanoseconds({{{4294967295u, 999999999u}}}),
             4294967295999999999);
   EXPECT_EQ(gslam::MessageStamp<Ros2Image>::nanoseconds({{{-2, 999999999u}}}), -1000000001);

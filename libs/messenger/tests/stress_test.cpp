@@ -41,11 +41,11 @@ void inThreads(int count, Work work) {
 }
 
 // Who sent a message, and its number there.
-using Stamped = std::pair<int, int>;
+using Numbered = std::pair<int, int>;
 
 // Counts what comes, and what comes out of order.
 struct Checker {
-  void operator()(const Stamped& message) {
+  void operator()(const Numbered& message) {
     if (message.second != next[message.first]++) ++disorder;
     ++count;
   }
@@ -62,12 +62,12 @@ TEST(Stress, NothingIsLostAndAllIsInOrder) {
   const int messages = messagesOfEach();
   for (const SubscribeOptions& way : ways) {  // 1e7 messages in all
     const Messenger messenger;
-    const Publisher<Stamped> publisher = messenger.advertise<Stamped>("n");
+    const Publisher<Numbered> publisher = messenger.advertise<Numbered>("n");
     Checker checker;
-    Subscriber subscriber = messenger.subscribe<Stamped>(
-        "n", way.drainAtEnd(), [&](const Stamped& message) { checker(message); });
+    Subscriber subscriber = messenger.subscribe<Numbered>(
+        "n", way.drainAtEnd(), [&](const Numbered& message) { checker(message); });
     inThreads(kPublishers, [&](int who) {
-      for (int i = 0; i < messages; ++i) publisher.publish(Stamped(who, i));
+      for (int i = 0; i < messages; ++i) publisher.publish(Numbered(who, i));
     });
     subscriber.unsubscribe();
     EXPECT_EQ(checker.count, std::int64_t(kPublishers) * messages);

@@ -22,9 +22,6 @@ using gslam::Synchronizer;
 using testing::ElementsAre;
 using namespace synchronizer_rig;
 
-template <class T>
-using Shared = std::shared_ptr<const T>;
-
 // --- exact time
 
 TEST(ExactTime, SameStampsMakeASet) {
@@ -111,7 +108,7 @@ TEST(Synchronizer, MessagesAreNotCopied) {
   std::vector<const void*> seen;
   const Synchronizer<Stamped, Other> synchronizer(
       messenger, {"/a", "/b"}, exactTime(), 2,
-      [&seen](const Shared<Stamped>& a, const Shared<Other>& b) {
+      [&seen](const std::shared_ptr<const Stamped>& a, const std::shared_ptr<const Other>& b) {
         seen = {a.get(), b.get()};
       });
   const auto a = std::make_shared<const Stamped>(Stamped{1});
