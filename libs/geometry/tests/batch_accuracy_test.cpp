@@ -41,8 +41,8 @@ class BatchAccuracy : public testing::Test {
  private:
   Real worst_ = 0;
 };
-using Groups = testing::Types<SO3<float>, SO3<double>, SE3<float>, SE3<double>>;
-TYPED_TEST_SUITE(BatchAccuracy, Groups, );
+using RigidGroups = testing::Types<SO3<float>, SO3<double>, SE3<float>, SE3<double>>;
+TYPED_TEST_SUITE(BatchAccuracy, RigidGroups, );
 
 TYPED_TEST(BatchAccuracy, ExpIsTheMatrixExponential) {
   using G = TypeParam;

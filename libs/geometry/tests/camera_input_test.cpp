@@ -1,18 +1,15 @@
 // What every camera model refuses, and what it keeps.
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "camera_cases.h"
+#include "not_finite.h"
 
 namespace {
 
 using camera_cases::make;
 using gslam::Vec2d;
 using gslam::Vec3d;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <class Case>
 class CameraInput : public testing::Test {

@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
+
+#include "not_finite.h"
 
 namespace {
 
 using gslam::detail::CameraPolynomial;
 using gslam::detail::firstPositiveRoot;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(CameraPolynomial, KnownRoots) {
   EXPECT_EQ(firstPositiveRoot({{{1}}}), kInfinity);

@@ -13,7 +13,7 @@ using gslam::Camera;
 using gslam::Vec2d;
 using gslam::Vec3d;
 
-Camera make(const char* model, const std::vector<double>& values) {
+Camera cameraOf(const char* model, const std::vector<double>& values) {
   return Camera::fromParameters(model, 640, 480, values);
 }
 
@@ -40,60 +40,60 @@ void expectSame(const Camera& a, const Camera& b, double max_angle, double toler
 
 TEST(CameraRelation, UnifiedCamerasOfOneSphere) {
   for (const double alpha : {0.0, 0.2, 0.5, 0.7, 1.0}) {
-    const Camera ucm = make("ucm", {300, 310, 320, 240, alpha});
-    expectSame(ucm, make("eucm", {300, 310, 320, 240, alpha, 1}), 1.5);
-    expectSame(ucm, make("double_sphere", {300, 310, 320, 240, 0, alpha}), 1.5);
+    const Camera ucm = cameraOf("ucm", {300, 310, 320, 240, alpha});
+    expectSame(ucm, cameraOf("eucm", {300, 310, 320, 240, alpha, 1}), 1.5);
+    expectSame(ucm, cameraOf("double_sphere", {300, 310, 320, 240, 0, alpha}), 1.5);
   }
 }
 
 TEST(CameraRelation, MirrorAndUnifiedCamera) {
   for (const double xi : {0.0, 0.4, 1.0, 1.7}) {
     const double alpha = xi / (1 + xi), f = 400 / (1 + xi);
-    expectSame(make("mei", {400, 400, 320, 240, xi, 0, 0, 0, 0}),
-               make("ucm", {f, f, 320, 240, alpha}), 1.5);
+    expectSame(cameraOf("mei", {400, 400, 320, 240, xi, 0, 0, 0, 0}),
+               cameraOf("ucm", {f, f, 320, 240, alpha}), 1.5);
   }
 }
 
 TEST(CameraRelation, FirstSphereAlone) {
   for (const double xi : {0.0, 0.3, 0.9}) {
-    expectSame(make("double_sphere", {400, 390, 320, 240, xi, 0}),
-               make("mei", {400, 390, 320, 240, xi, 0, 0, 0, 0}), 1.5);
+    expectSame(cameraOf("double_sphere", {400, 390, 320, 240, xi, 0}),
+               cameraOf("mei", {400, 390, 320, 240, xi, 0, 0, 0, 0}), 1.5);
   }
 }
 
 TEST(CameraRelation, WithoutDistortionAllArePinholes) {
-  const Camera pinhole = make("pinhole", {300, 310, 320, 240});
+  const Camera pinhole = cameraOf("pinhole", {300, 310, 320, 240});
   for (const std::size_t count : {4U, 5U, 8U, 12U, 14U}) {
     std::vector<double> values = {300, 310, 320, 240};
     values.resize(4 + count);
-    expectSame(pinhole, make("radtan", values), 1.5);
+    expectSame(pinhole, cameraOf("radtan", values), 1.5);
   }
-  expectSame(pinhole, make("fov", {300, 310, 320, 240, 0}), 1.5);
-  expectSame(pinhole, make("fov", {300, 310, 320, 240, 1e-9}), 1.5);
-  expectSame(pinhole, make("fov", {300, 310, 320, 240, 5e-324}), 1.5);
-  expectSame(pinhole, make("ucm", {300, 310, 320, 240, 0}), 1.5);
-  expectSame(pinhole, make("eucm", {300, 310, 320, 240, 0, 1.3}), 1.5);
-  expectSame(pinhole, make("mei", {300, 310, 320, 240, 0, 0, 0, 0, 0}), 1.5);
-  expectSame(pinhole, make("ocam", {320, 240, 310. / 300, 0, 0, -300, 0, 0, 0, 0}), 1.5);
+  expectSame(pinhole, cameraOf("fov", {300, 310, 320, 240, 0}), 1.5);
+  expectSame(pinhole, cameraOf("fov", {300, 310, 320, 240, 1e-9}), 1.5);
+  expectSame(pinhole, cameraOf("fov", {300, 310, 320, 240, 5e-324}), 1.5);
+  expectSame(pinhole, cameraOf("ucm", {300, 310, 320, 240, 0}), 1.5);
+  expectSame(pinhole, cameraOf("eucm", {300, 310, 320, 240, 0, 1.3}), 1.5);
+  expectSame(pinhole, cameraOf("mei", {300, 310, 320, 240, 0, 0, 0, 0, 0}), 1.5);
+  expectSame(pinhole, cameraOf("ocam", {320, 240, 310. / 300, 0, 0, -300, 0, 0, 0, 0}), 1.5);
 }
 
 TEST(CameraRelation, RadtanModelsContainEachOther) {
   std::vector<double> values = {300, 310, 320, 240, -0.2, 0.05, 0.001, -0.002};
-  const Camera four = make("radtan", values);
+  const Camera four = cameraOf("radtan", values);
   for (const std::size_t count : {5U, 8U, 12U, 14U}) {
     values.resize(4 + count);
-    expectSame(four, make("radtan", values), 1.2);
+    expectSame(four, cameraOf("radtan", values), 1.2);
   }
   values.resize(8);
   values.insert(values.begin() + 4, 0.0);  // xi
-  expectSame(four, make("mei", values), 1.2);
+  expectSame(four, cameraOf("mei", values), 1.2);
 }
 
 // Radial models at which the angle can be read off.
 TEST(CameraRelation, AngleAndDistance) {
-  const Camera equidistant = make("kannala_brandt", {100, 100, 0, 0, 0, 0, 0, 0});
-  const Camera orthographic = make("orthographic", {100, 100, 0, 0});
-  const Camera panorama = make("equirectangular", {100, 100, 0, 0});
+  const Camera equidistant = cameraOf("kannala_brandt", {100, 100, 0, 0, 0, 0, 0, 0});
+  const Camera orthographic = cameraOf("orthographic", {100, 100, 0, 0});
+  const Camera panorama = cameraOf("equirectangular", {100, 100, 0, 0});
   for (const double t : {1e-9, 0.1, 0.7, 1.5}) {
     const Vec3d point = {0, 7 * std::sin(t), 7 * std::cos(t)};
     Vec2d pixel;

@@ -3,11 +3,12 @@
 #include <gslam/geometry/camera.h>
 
 #include <cmath>
-#include <functional>
 #include <sstream>
 #include <string>
 #include <type_traits>
 #include <vector>
+
+#include "refusal.h"
 
 namespace {
 
@@ -24,17 +25,8 @@ static_assert(std::is_trivially_copyable<Camera>::value, "may be copied byte by 
 static_assert(std::is_standard_layout<Camera>::value, "may cross the border to a plugin");
 static_assert(sizeof(Camera) == 400, "the layout is fixed");
 
-std::string refusal(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const gslam::ArgumentError& error) {
-    return error.what();
-  }
-  return "taken";
-}
-
-std::string refusal(const std::string& model, int width, int height,
-                    const std::vector<double>& values) {
+std::string cameraRefusal(const std::string& model, int width, int height,
+                          const std::vector<double>& values) {
   return refusal([&] { (void)Camera::fromParameters(model, width, height, values); });
 }
 
@@ -83,35 +75,38 @@ TEST(Camera, OtherNamesOfModels) {
 
 TEST(Camera, WhatIsRefused) {
   const double nan = std::nan("");
-  EXPECT_THAT(refusal("pinhoel", 4, 3, {1, 1, 0, 0}),
+  EXPECT_THAT(cameraRefusal("pinhoel", 4, 3, {1, 1, 0, 0}),
               HasSubstr("model is \"pinhoel\", expected one of pinhole, radtan, kannala_brandt, "));
-  EXPECT_EQ(refusal("pinhole", 4, 3, {1, 1, 0}),
+  EXPECT_EQ(cameraRefusal("pinhole", 4, 3, {1, 1, 0}),
             "values are 3 numbers, expected 4 for pinhole: fx fy cx cy");
   EXPECT_THAT(
-      refusal("radtan", 4, 3, {1, 1, 0}),
+      cameraRefusal("radtan", 4, 3, {1, 1, 0}),
       HasSubstr("expected 8 or 9 or 12 or 16 or 18 for radtan: fx fy cx cy k1 k2 p1 p2 k3"));
-  EXPECT_EQ(refusal("pinhole", 0, 3, {1, 1, 0, 0}), "width is 0, expected 1 pixel or more");
-  EXPECT_EQ(refusal("pinhole", 4, -3, {1, 1, 0, 0}), "height is -3, expected 1 pixel or more");
-  EXPECT_EQ(refusal("pinhole", 4, 3, {-1, 1, 0, 0}),
+  EXPECT_EQ(cameraRefusal("pinhole", 0, 3, {1, 1, 0, 0}), "width is 0, expected 1 pixel or more");
+  EXPECT_EQ(cameraRefusal("pinhole", 4, -3, {1, 1, 0, 0}),
+            "height is -3, expected 1 pixel or more");
+  EXPECT_EQ(cameraRefusal("pinhole", 4, 3, {-1, 1, 0, 0}),
             "fx is -1, expected a positive number of pixels");
-  EXPECT_EQ(refusal("pinhole", 4, 3, {1, 0, 0, 0}),
+  EXPECT_EQ(cameraRefusal("pinhole", 4, 3, {1, 0, 0, 0}),
             "fy is 0, expected a positive number of pixels");
-  EXPECT_EQ(refusal("pinhole", 4, 3, {1, 1, nan, 0}), "cx is nan, expected a finite number");
-  EXPECT_EQ(refusal("fov", 4, 3, {1, 1, 0, 0, 3.2}),
+  EXPECT_EQ(cameraRefusal("pinhole", 4, 3, {1, 1, nan, 0}), "cx is nan, expected a finite number");
+  EXPECT_EQ(cameraRefusal("fov", 4, 3, {1, 1, 0, 0, 3.2}),
             "w is 3.2, expected 0 or more and less than pi");
-  EXPECT_EQ(refusal("ucm", 4, 3, {1, 1, 0, 0, 1.5}), "alpha is 1.5, expected 0 to 1");
-  EXPECT_EQ(refusal("eucm", 4, 3, {1, 1, 0, 0, 0.5, 0}), "beta is 0, expected a positive number");
-  EXPECT_EQ(refusal("double_sphere", 4, 3, {1, 1, 0, 0, 1, 0.5}),
+  EXPECT_EQ(cameraRefusal("ucm", 4, 3, {1, 1, 0, 0, 1.5}), "alpha is 1.5, expected 0 to 1");
+  EXPECT_EQ(cameraRefusal("eucm", 4, 3, {1, 1, 0, 0, 0.5, 0}),
+            "beta is 0, expected a positive number");
+  EXPECT_EQ(cameraRefusal("double_sphere", 4, 3, {1, 1, 0, 0, 1, 0.5}),
             "xi is 1, expected more than -1 and less than 1");
-  EXPECT_EQ(refusal("mei", 4, 3, {1, 1, 0, 0, -0.1, 0, 0, 0, 0}), "xi is -0.1, expected 0 or more");
-  EXPECT_EQ(refusal("ocam", 4, 3, {2, 1, 1, 0, 0, 300, 0, 0, 0, 0}),
+  EXPECT_EQ(cameraRefusal("mei", 4, 3, {1, 1, 0, 0, -0.1, 0, 0, 0, 0}),
+            "xi is -0.1, expected 0 or more");
+  EXPECT_EQ(cameraRefusal("ocam", 4, 3, {2, 1, 1, 0, 0, 300, 0, 0, 0, 0}),
             "a0 is 300, expected a negative number of pixels");
-  EXPECT_EQ(refusal("ocam", 4, 3, {2, 1, 0, 0, 0, -300, 0, 0, 0, 0}),
+  EXPECT_EQ(cameraRefusal("ocam", 4, 3, {2, 1, 0, 0, 0, -300, 0, 0, 0, 0}),
             "c is 0, expected more than d e");
   std::vector<double> tilted(18);
   tilted[0] = tilted[1] = 300;
   tilted[16] = 1.6;
-  EXPECT_EQ(refusal("radtan", 4, 3, tilted), "taux is 1.6, expected an angle below pi / 2");
+  EXPECT_EQ(cameraRefusal("radtan", 4, 3, tilted), "taux is 1.6, expected an angle below pi / 2");
 }
 
 TEST(Camera, NamedParametersThatAreMissing) {

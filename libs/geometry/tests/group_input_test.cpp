@@ -1,10 +1,11 @@
 // What comes from outside into SE3 and SIM3: what is taken, and what is refused with which words.
 #include <gmock/gmock.h>
 
-#include <functional>
 #include <string>
 
+#include "not_finite.h"
 #include "reference.h"
+#include "refusal.h"
 
 namespace {
 
@@ -12,18 +13,6 @@ using gslam::SE3d;
 using gslam::SIM3d;
 using gslam::SO3d;
 using testing::HasSubstr;
-
-const double kNan = std::numeric_limits<double>::quiet_NaN();
-const double kInfinity = std::numeric_limits<double>::infinity();
-
-std::string refusal(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const gslam::ArgumentError& error) {
-    return error.what();
-  }
-  return "taken";
-}
 
 SE3d someTransform() {
   return SE3d(SO3d::exp({0.3, -1, 2}), {1, 2, 3});

@@ -158,6 +158,9 @@ std::vector<typename G::Tangent> scan(const std::vector<typename G::Scalar>& ang
   return result;
 }
 
+using SpaceGroups =
+    testing::Types<gslam::SO3f, gslam::SO3d, gslam::SE3f, gslam::SE3d, gslam::SIM3f, gslam::SIM3d>;
+
 }  // namespace reference
 
 #endif  // GSLAM_GEOMETRY_TESTS_GROUP_REFERENCE_H

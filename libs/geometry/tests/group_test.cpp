@@ -9,7 +9,6 @@ namespace {
 
 using gslam::SE3;
 using gslam::SIM3;
-using gslam::SO3;
 using gslam::Vec;
 using reference::convert;
 using reference::GroupFacts;
@@ -32,9 +31,7 @@ class Group : public testing::Test {
 
   reference::Random<Scalar> random;
 };
-using Groups =
-    testing::Types<SO3<float>, SO3<double>, SE3<float>, SE3<double>, SIM3<float>, SIM3<double>>;
-TYPED_TEST_SUITE(Group, Groups, );
+TYPED_TEST_SUITE(Group, reference::SpaceGroups, );
 
 constexpr int kRounds = 500;
 

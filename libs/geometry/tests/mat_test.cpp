@@ -16,13 +16,13 @@ using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(MatTest, Scalars, );
 
 template <class M>
-constexpr bool hasPlainLayout(std::size_t elements) {
+constexpr bool isPlainMat(std::size_t elements) {
   return std::is_trivial<M>::value && std::is_standard_layout<M>::value &&
          sizeof(M) == elements * sizeof(typename M::value_type) &&
          alignof(M) == alignof(typename M::value_type);
 }
-static_assert(hasPlainLayout<gslam::Mat3f>(9) && hasPlainLayout<gslam::Mat3d>(9), "");
-static_assert(hasPlainLayout<Mat<double, 3, 4>>(12), "");
+static_assert(isPlainMat<gslam::Mat3f>(9) && isPlainMat<gslam::Mat3d>(9), "");
+static_assert(isPlainMat<Mat<double, 3, 4>>(12), "");
 
 TYPED_TEST(MatTest, StoredRowByRow) {
   using T = TypeParam;

@@ -3,6 +3,7 @@
 #include <gslam/geometry/mean.h>
 
 #include "any_group.h"
+#include "refusal.h"
 
 namespace {
 
@@ -149,16 +150,6 @@ TEST(MeanOfPoses, FarFromTheOrigin) {
   EXPECT_EQ(found.status, MeanStatus::unique);
   EXPECT_LT(found.iterations, 30);
   EXPECT_TRUE(found.value.isApprox(centre, 1e-8));
-}
-
-template <class F>
-std::string refusal(const F& f) {
-  try {
-    (void)f();
-  } catch (const gslam::ArgumentError& error) {
-    return error.what();
-  }
-  return "taken";
 }
 
 TEST(MeanInput, WhatIsRefused) {

@@ -3,8 +3,6 @@
 
 namespace {
 
-using gslam::SE2;
-using gslam::SO2;
 using reference::convert;
 using reference::GroupFacts;
 using reference::Real;
@@ -27,8 +25,7 @@ class PlanarExpLog : public testing::Test {
  private:
   Real worst_ = 0;
 };
-using Groups = testing::Types<SO2<float>, SO2<double>, SE2<float>, SE2<double>>;
-TYPED_TEST_SUITE(PlanarExpLog, Groups, );
+TYPED_TEST_SUITE(PlanarExpLog, reference::PlanarGroups, );
 
 TYPED_TEST(PlanarExpLog, ExpIsTheMatrixExponential) {
   using G = TypeParam;

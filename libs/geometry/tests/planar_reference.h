@@ -65,6 +65,8 @@ std::vector<typename G::Tangent> planarScan(const std::vector<typename G::Scalar
   return result;
 }
 
+using PlanarGroups = testing::Types<gslam::SO2f, gslam::SO2d, gslam::SE2f, gslam::SE2d>;
+
 }  // namespace reference
 
 #endif  // GSLAM_GEOMETRY_TESTS_PLANAR_REFERENCE_H

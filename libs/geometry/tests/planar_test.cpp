@@ -6,12 +6,11 @@
 #include <type_traits>
 
 #include "planar_reference.h"
+#include "refusal.h"
 
 namespace {
 
-using gslam::SE2;
 using gslam::SE2d;
-using gslam::SO2;
 using gslam::SO2d;
 using gslam::Vec;
 using testing::HasSubstr;
@@ -38,8 +37,7 @@ class PlanarTest : public testing::Test {
  private:
   reference::Random<T> random_;
 };
-using Groups = testing::Types<SO2<float>, SO2<double>, SE2<float>, SE2<double>>;
-TYPED_TEST_SUITE(PlanarTest, Groups, );
+TYPED_TEST_SUITE(PlanarTest, reference::PlanarGroups, );
 
 TYPED_TEST(PlanarTest, GroupAxioms) {
   using G = TypeParam;
@@ -127,16 +125,6 @@ TEST(Planar, PrintedAsStored) {
   out << SE2d(SO2d::fromComplex(0, -1), {3, 4.5});
   EXPECT_EQ(out.str(), "3 4.5 0 -1");
   EXPECT_EQ(SE2d(SO2d::fromComplex(0, -1), {3, 4.5}).data()[3], -1);
-}
-
-template <class F>
-std::string refusal(const F& f) {
-  try {
-    (void)f();
-  } catch (const gslam::ArgumentError& error) {
-    return error.what();
-  }
-  return "taken";
 }
 
 TEST(Planar, WhatIsRefused) {

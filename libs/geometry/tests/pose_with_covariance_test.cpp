@@ -59,8 +59,9 @@ class Covariances : public reference::AnyGroup<G> {
     EXPECT_EQ(actual, actual.transpose());
   }
 };
-using Groups = testing::Types<gslam::SO2d, gslam::SO3d, gslam::SE2d, gslam::SE3d, gslam::SIM3d>;
-TYPED_TEST_SUITE(Covariances, Groups, );
+using DoubleGroups =
+    testing::Types<gslam::SO2d, gslam::SO3d, gslam::SE2d, gslam::SE3d, gslam::SIM3d>;
+TYPED_TEST_SUITE(Covariances, DoubleGroups, );
 
 TYPED_TEST(Covariances, FirstOrderOfEveryFunction) {
   using G = TypeParam;

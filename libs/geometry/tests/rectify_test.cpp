@@ -5,9 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <random>
 #include <string>
+
+#include "refusal.h"
 
 namespace {
 
@@ -109,15 +110,6 @@ TEST(Rectify, NothingToTurn) {
   EXPECT_EQ(r.R_rectified_right, gslam::Mat3d::identity());
   EXPECT_NEAR(r.camera.parameter("fx"), 500, 1e-6);
   EXPECT_NEAR(r.camera.parameter("cx"), 319.5, 1e-9);
-}
-
-std::string refusal(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const gslam::ArgumentError& error) {
-    return error.what();
-  }
-  return "taken";
 }
 
 TEST(Rectify, WhatIsRefused) {

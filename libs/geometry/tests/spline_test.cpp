@@ -4,6 +4,7 @@
 #include <gslam/geometry/spline.h>
 
 #include "any_group.h"
+#include "refusal.h"
 
 namespace {
 
@@ -125,16 +126,6 @@ TYPED_TEST(SplineTest, MovesWithItsFrame) {
 
 using gslam::SE3d;
 using testing::HasSubstr;
-
-template <class F>
-std::string refusal(const F& f) {
-  try {
-    (void)f();
-  } catch (const gslam::ArgumentError& error) {
-    return error.what();
-  }
-  return "taken";
-}
 
 TEST(SplineInput, WhatIsRefused) {
   const std::vector<SE3d> four(4);

@@ -96,7 +96,7 @@ TEST(TextOfNumbers, NoDecimalComma) {
 }
 
 template <class G>
-std::string refusal(const std::string& text) {
+std::string textRefusal(const std::string& text) {
   try {
     (void)fromText<G>(text);
   } catch (const gslam::ParseError& error) {
@@ -108,26 +108,26 @@ std::string refusal(const std::string& text) {
 }
 
 TEST(TextInput, WhatIsRefused) {
-  EXPECT_EQ(refusal<SO3d>(""), "text:1:1: is empty, expected qx qy qz qw");
-  EXPECT_EQ(refusal<SO3d>(" \t\n"), "text:1:1: is empty, expected qx qy qz qw");
-  EXPECT_EQ(refusal<SE3d>("1 2 3"),
+  EXPECT_EQ(textRefusal<SO3d>(""), "text:1:1: is empty, expected qx qy qz qw");
+  EXPECT_EQ(textRefusal<SO3d>(" \t\n"), "text:1:1: is empty, expected qx qy qz qw");
+  EXPECT_EQ(textRefusal<SE3d>("1 2 3"),
             "text:1:6: ends after 3 of 7 numbers, expected tx ty tz qx qy qz qw");
-  EXPECT_EQ(refusal<SIM3d>("1 2 3 0 0 0 1 "),
+  EXPECT_EQ(textRefusal<SIM3d>("1 2 3 0 0 0 1 "),
             "text:1:15: ends after 7 of 8 numbers, expected tx ty tz qx qy qz qw scale");
-  EXPECT_THAT(refusal<SE3d>("1 2 x3 0 0 0 1"), HasSubstr("text:1:5: 'x3' is no finite number"));
-  EXPECT_THAT(refusal<SO3d>("0 0 0 1 5 6"), HasSubstr("text:1:9: '5 6' stands after the end"));
-  EXPECT_THAT(refusal<SE2d>("0 0 1 0 0 0 1"), HasSubstr("'0 0 1' stands after the end"));
-  EXPECT_THAT(refusal<SO3d>("0 0 0 0"), HasSubstr("argument: quaternion (0 0 0 0) has a norm"));
-  EXPECT_THAT(refusal<SIM3d>("0 0 0 0 0 0 1 0"), HasSubstr("argument: scale is 0"));
-  EXPECT_THAT(refusal<SO2d>("0 0"), HasSubstr("argument: cosine and sine (0 0)"));
-  EXPECT_THAT(refusal<SE3d>("1e400 0 0 0 0 0 1"), HasSubstr("1e400 is too large"));
-  EXPECT_THAT(refusal<SE3f>("0 -1e39 0 0 0 0 1"), HasSubstr("text:1:3: -1e39 is too large"));
+  EXPECT_THAT(textRefusal<SE3d>("1 2 x3 0 0 0 1"), HasSubstr("text:1:5: 'x3' is no finite number"));
+  EXPECT_THAT(textRefusal<SO3d>("0 0 0 1 5 6"), HasSubstr("text:1:9: '5 6' stands after the end"));
+  EXPECT_THAT(textRefusal<SE2d>("0 0 1 0 0 0 1"), HasSubstr("'0 0 1' stands after the end"));
+  EXPECT_THAT(textRefusal<SO3d>("0 0 0 0"), HasSubstr("argument: quaternion (0 0 0 0) has a norm"));
+  EXPECT_THAT(textRefusal<SIM3d>("0 0 0 0 0 0 1 0"), HasSubstr("argument: scale is 0"));
+  EXPECT_THAT(textRefusal<SO2d>("0 0"), HasSubstr("argument: cosine and sine (0 0)"));
+  EXPECT_THAT(textRefusal<SE3d>("1e400 0 0 0 0 0 1"), HasSubstr("1e400 is too large"));
+  EXPECT_THAT(textRefusal<SE3f>("0 -1e39 0 0 0 0 1"), HasSubstr("text:1:3: -1e39 is too large"));
 }
 
 TEST(TextInput, WordsThatAreNoNumbers) {
   for (const char* word : {"nan", "NaN", "inf", "-infinity", "0x10", "1e", "1e+", ".", "-", "+-1",
                            "1,5", "1.5f", "1..2", "1d3", "--1", "1e5.5", "'1'"}) {
-    EXPECT_THAT(refusal<SO3d>(std::string("0 0 ") + word + " 1"),
+    EXPECT_THAT(textRefusal<SO3d>(std::string("0 0 ") + word + " 1"),
                 HasSubstr("text:1:5: '" + std::string(word) + "' is no finite number"));
   }
 }

@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <random>
 #include <string>
 #include <type_traits>
 #include <vector>
+
+#include "refusal.h"
 
 namespace {
 
@@ -207,15 +208,6 @@ TEST(Undistort, CopiesShareTheTable) {
   EXPECT_EQ(a.mask().data(), b.mask().data());
   EXPECT_EQ(b.target(), widePinhole());
   EXPECT_EQ(b.source(), euroc());
-}
-
-std::string refusal(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const gslam::ArgumentError& error) {
-    return error.what();
-  }
-  return "taken";
 }
 
 TEST(Undistort, WhatIsRefused) {

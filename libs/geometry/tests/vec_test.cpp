@@ -18,13 +18,13 @@ TYPED_TEST_SUITE(VecTest, Scalars, );
 
 // What crosses plugin borders must be the same for everybody.
 template <class T, std::size_t N>
-constexpr bool hasPlainLayout() {
+constexpr bool isPlainVec() {
   return std::is_trivially_copyable<Vec<T, N>>::value &&
          std::is_standard_layout<Vec<T, N>>::value && std::is_trivial<Vec<T, N>>::value &&
          sizeof(Vec<T, N>) == N * sizeof(T) && alignof(Vec<T, N>) == alignof(T);
 }
-static_assert(hasPlainLayout<float, 2>() && hasPlainLayout<float, 3>(), "");
-static_assert(hasPlainLayout<double, 3>() && hasPlainLayout<double, 4>(), "");
+static_assert(isPlainVec<float, 2>() && isPlainVec<float, 3>(), "");
+static_assert(isPlainVec<double, 3>() && isPlainVec<double, 4>(), "");
 
 TYPED_TEST(VecTest, Arithmetic) {
   using T = TypeParam;
