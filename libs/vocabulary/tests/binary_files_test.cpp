@@ -23,20 +23,8 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 using gslam::Vocabulary;
-
-Vocabulary load(const Bytes& bytes) {
-  return gslam::loadVocabulary(gslam::Span<const std::uint8_t>(bytes), "toy");
-}
-
-// "" where there is no error.
-std::string errorOf(const Bytes& bytes) {
-  try {
-    load(bytes);
-  } catch (const gslam::ParseError& error) {
-    return error.what();
-  }
-  return "";
-}
+using toy::errorOf;
+using toy::load;
 
 template <class Number>
 Bytes replaced(Bytes bytes, std::size_t offset, Number number) {

@@ -134,7 +134,7 @@ struct Fault {
   std::function<void(TreeData&)> make;
 };
 
-std::string nameOf(const testing::TestParamInfo<Fault>& info) {
+std::string faultName(const testing::TestParamInfo<Fault>& info) {
   return info.param.name;
 }
 
@@ -208,7 +208,7 @@ INSTANTIATE_TEST_SUITE_P(
                 data.format.type = gslam::DescriptorType::int8;
                 data.format.scale = 0;
               }}),
-    nameOf);
+    faultName);
 
 // Weights of inner nodes mean nothing, whatever they are.
 TEST(build_tree, IgnoresWeightsOfInnerNodes) {

@@ -13,21 +13,8 @@
 namespace {
 
 using gslam::Vocabulary;
-
-Vocabulary load(const std::string& text) {
-  const std::vector<std::uint8_t> bytes = toy::bytesOfText(text);
-  return gslam::loadVocabulary(gslam::Span<const std::uint8_t>(bytes), "toy.yml");
-}
-
-// "" where there is no error.
-std::string errorOf(const std::string& text) {
-  try {
-    load(text);
-  } catch (const gslam::ParseError& error) {
-    return error.what();
-  }
-  return "";
-}
+using toy::errorOf;
+using toy::load;
 
 std::string replacedAll(std::string text, const std::string& from, const std::string& to) {
   std::size_t at = text.find(from);
@@ -38,7 +25,7 @@ std::string replacedAll(std::string text, const std::string& from, const std::st
   return text;
 }
 
-const char kSmall[] =
+const char kSmallYaml[] =
     "%YAML:1.0\n"
     "---\n"
     "vocabulary:\n"
@@ -60,8 +47,8 @@ const char kSmall[] =
     "      - { wordId:1, nodeId:3 }\n"
     "      - { wordId:2, nodeId:4 }\n";
 
-std::string replaced(const std::string& from, const std::string& to) {
-  std::string text = kSmall;
+std::string yamlWith(const std::string& from, const std::string& to) {
+  std::string text = kSmallYaml;
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
@@ -109,10 +96,10 @@ TEST(dbow_yaml, layout_is_free_where_yaml_is) {
 }
 
 TEST(dbow_yaml, fields_may_be_in_any_order) {
-  EXPECT_EQ(errorOf(kSmall), "");
-  const Vocabulary vocabulary =
-      load(replacedAll(kSmall, "nodeId:4, parentId:1, weight:1.5,\n          descriptor:\"7 8 9 \"",
-                       "descriptor:\"7 8 9 \", weight:1.5, parentId:1, nodeId:4"));
+  EXPECT_EQ(errorOf(kSmallYaml), "");
+  const Vocabulary vocabulary = load(
+      replacedAll(kSmallYaml, "nodeId:4, parentId:1, weight:1.5,\n          descriptor:\"7 8 9 \"",
+                  "descriptor:\"7 8 9 \", weight:1.5, parentId:1, nodeId:4"));
   EXPECT_EQ(vocabulary.wordCount(), 3u);
   EXPECT_EQ(vocabulary.weight(2), 1.5);
   EXPECT_EQ(vocabulary.scoring(), gslam::Scoring::kl);
@@ -142,7 +129,7 @@ TEST(dbow_yaml, old_dbow3_is_not_shifted) {
 }
 
 TEST(dbow_yaml, bits_of_fbrief_are_read_from_the_last) {
-  std::string text = replacedAll(kSmall, "1 2 3 ", "0000000110000000");
+  std::string text = replacedAll(kSmallYaml, "1 2 3 ", "0000000110000000");
   text = replacedAll(text, "4 5 6 ", "1111111100000001");
   text = replacedAll(text, "7 8 9 ", "0000000000000000");
   text = replacedAll(text, "10 11 12 ", "1000000000000011");
@@ -159,7 +146,7 @@ TEST(dbow_yaml, bits_of_fbrief_are_read_from_the_last) {
 }
 
 TEST(dbow_yaml, floats_are_exact) {
-  std::string text = replacedAll(kSmall, "1 2 3 ", "0.1 -1.5e-05 3 ");
+  std::string text = replacedAll(kSmallYaml, "1 2 3 ", "0.1 -1.5e-05 3 ");
   text = replacedAll(text, "4 5 6 ", "1 2 3 ");
   text = replacedAll(text, "7 8 9 ", "16777217 1e-40 -0 ");
   const Vocabulary vocabulary = load(text);
@@ -172,7 +159,7 @@ TEST(dbow_yaml, floats_are_exact) {
 }
 
 TEST(dbow_yaml, floats_may_begin_with_integers) {
-  const Vocabulary vocabulary = load(replacedAll(kSmall, "7 8 9 ", "7 0.5 -9 "));
+  const Vocabulary vocabulary = load(replacedAll(kSmallYaml, "7 8 9 ", "7 0.5 -9 "));
   EXPECT_EQ(vocabulary.format().type, gslam::DescriptorType::float32);
   std::vector<float> numbers(3);
   std::memcpy(numbers.data(), gslam::detail::descriptorOf(vocabulary.tree(), 1), 12);
@@ -184,87 +171,84 @@ TEST(dbow_yaml, floats_may_begin_with_integers) {
 // Weights of inner nodes are what was in the memory.
 TEST(dbow_yaml, weights_need_be_numbers_in_leaves_alone) {
   for (const char* const weight : {".Nan", ".Inf", "-.Inf", "-3."}) {
-    EXPECT_EQ(errorOf(replaced("weight:0.", std::string("weight:") + weight)), "");
-    EXPECT_NE(errorOf(replaced("weight:1.5", std::string("weight:") + weight)), "");
+    EXPECT_EQ(errorOf(yamlWith("weight:0.", std::string("weight:") + weight)), "");
+    EXPECT_NE(errorOf(yamlWith("weight:1.5", std::string("weight:") + weight)), "");
   }
 }
 
 TEST(dbow_yaml, errors_name_the_line_and_the_column) {
-  EXPECT_EQ(errorOf(replaced("k: 2", "k: 65")),
-            "toy.yml:4:7: expected a number of 2 to 64, got '65'");
-  EXPECT_EQ(errorOf(replaced("L: 2", "L: 0")),
-            "toy.yml:5:7: expected a number of 1 to 64, got '0'");
-  EXPECT_EQ(errorOf(replaced("8 9", "8 256")),
-            "toy.yml:14:27: expected a byte of 0 to 255, of 3 as in the first descriptor, got "
+  EXPECT_EQ(errorOf(yamlWith("k: 2", "k: 65")), "toy:4:7: expected a number of 2 to 64, got '65'");
+  EXPECT_EQ(errorOf(yamlWith("L: 2", "L: 0")), "toy:5:7: expected a number of 1 to 64, got '0'");
+  EXPECT_EQ(errorOf(yamlWith("8 9", "8 256")),
+            "toy:14:27: expected a byte of 0 to 255, of 3 as in the first descriptor, got "
             "'256'");
-  EXPECT_EQ(errorOf(replaced("7 8 9 ", "7 8 9 10 ")),
-            "toy.yml:14:29: expected the end of a descriptor, got '10'");
-  EXPECT_EQ(errorOf(replaced("weight:1.5", "weight:x")),
-            "toy.yml:13:40: expected a number, got 'x,'");
-  EXPECT_EQ(errorOf(replaced("nodeId:4", "nodeId:5")),
-            "toy.yml:13:9: the node has the id 5, expected 1 to 4, as there are nodes");
-  EXPECT_EQ(errorOf(replaced("nodeId:4", "nodeId:2")),
-            "toy.yml:13:9: the node has the id 2, which another has, too");
-  EXPECT_EQ(errorOf(replaced("nodeId:4, parentId:1", "nodeId:4, parentId:4")),
-            "toy.yml:13:9: the node has the id 4 and the parent 4, which cannot be");
-  EXPECT_EQ(errorOf(replaced("nodeId:4, parentId:1", "nodeId:4, parentId:5")),
-            "toy.yml:13:9: the node has the id 4 and the parent 5, which cannot be");
-  EXPECT_EQ(errorOf(replaced("wordId:1, nodeId:3", "wordId:1, nodeId:2")),
-            "toy.yml:19:21: the node 2 has two words");
-  EXPECT_EQ(errorOf(replaced("wordId:1, nodeId:3", "wordId:1, nodeId:5")),
-            "toy.yml:19:21: the node 5 is not there");
-  EXPECT_EQ(errorOf(replaced("parentId:1, ", "")),
-            "toy.yml:14:31: expected nodeId, parentId, weight and descriptor, got '}'");
-  EXPECT_EQ(errorOf(replaced("parentId:1", "nodeId:1")),
-            "toy.yml:13:21: this field is there twice");
-  EXPECT_EQ(errorOf(replaced("   L: 2\n", "   k: 2\n")), "toy.yml:5:4: this field is there twice");
-  EXPECT_EQ(errorOf(replaced("   L: 2\n", "   M: 2\n")),
-            "toy.yml:5:4: expected k, L, scoringType, weightingType, nodes, words or the end of "
+  EXPECT_EQ(errorOf(yamlWith("7 8 9 ", "7 8 9 10 ")),
+            "toy:14:29: expected the end of a descriptor, got '10'");
+  EXPECT_EQ(errorOf(yamlWith("weight:1.5", "weight:x")), "toy:13:40: expected a number, got 'x,'");
+  EXPECT_EQ(errorOf(yamlWith("nodeId:4", "nodeId:5")),
+            "toy:13:9: the node has the id 5, expected 1 to 4, as there are nodes");
+  EXPECT_EQ(errorOf(yamlWith("nodeId:4", "nodeId:2")),
+            "toy:13:9: the node has the id 2, which another has, too");
+  EXPECT_EQ(errorOf(yamlWith("nodeId:4, parentId:1", "nodeId:4, parentId:4")),
+            "toy:13:9: the node has the id 4 and the parent 4, which cannot be");
+  EXPECT_EQ(errorOf(yamlWith("nodeId:4, parentId:1", "nodeId:4, parentId:5")),
+            "toy:13:9: the node has the id 4 and the parent 5, which cannot be");
+  EXPECT_EQ(errorOf(yamlWith("wordId:1, nodeId:3", "wordId:1, nodeId:2")),
+            "toy:19:21: the node 2 has two words");
+  EXPECT_EQ(errorOf(yamlWith("wordId:1, nodeId:3", "wordId:1, nodeId:5")),
+            "toy:19:21: the node 5 is not there");
+  EXPECT_EQ(errorOf(yamlWith("parentId:1, ", "")),
+            "toy:14:31: expected nodeId, parentId, weight and descriptor, got '}'");
+  EXPECT_EQ(errorOf(yamlWith("parentId:1", "nodeId:1")), "toy:13:21: this field is there twice");
+  EXPECT_EQ(errorOf(yamlWith("   L: 2\n", "   k: 2\n")), "toy:5:4: this field is there twice");
+  EXPECT_EQ(errorOf(yamlWith("   L: 2\n", "   M: 2\n")),
+            "toy:5:4: expected k, L, scoringType, weightingType, nodes, words or the end of "
             "the file, got 'M:'");
-  EXPECT_EQ(errorOf(replaced("   L: 2\n", "")),
-            "toy.yml:20:1: expected the field L, got the end "
+  EXPECT_EQ(errorOf(yamlWith("   L: 2\n", "")),
+            "toy:20:1: expected the field L, got the end "
             "of the file");
 }
 
 TEST(dbow_yaml, other_wrong_files_are_refused) {
-  const std::string words = std::string(kSmall).substr(std::string(kSmall).find("   words"));
+  const std::string words =
+      std::string(kSmallYaml).substr(std::string(kSmallYaml).find("   words"));
   for (const std::string& text :
-       {replaced(words, ""),
-        replaced("      - { wordId:1, nodeId:3 }\n", ""),
-        replaced("wordId:1, nodeId:3", "wordId:0, nodeId:3"),
-        replaced("wordId:1, nodeId:3", "wordId:1, nodeId:1"),
-        replaced("wordId:1, nodeId:3", "wordId:99999999, nodeId:3"),
-        replaced("wordId:1, nodeId:3", "wordId:1, nodeId:0"),
-        replaced("wordId:1, nodeId:3", "wordId:1, wordId:3"),
-        replaced("wordId:1", "wordId:-1"),
-        replaced("nodeId:1, parentId:0", "nodeId:1, parentId:3"),  // a circle
-        replaced("nodeId:1,", "nodeId:0,"),
-        replaced("nodeId:1,", "nodeId:4294967297,"),
-        replaced("k: 2", "k: 1"),
-        replaced("k: 2", "k: 65"),
-        replaced("L: 2", "L: 1"),
-        replaced("L: 2", "L: 99999999999"),
-        replaced("scoringType: 3", "scoringType: 6"),
-        replaced("weightingType: 1", "weightingType: 4"),
-        replaced("\"4 5 6 \"", "\"4 5 6 "),
-        replaced("4 5 6 ", "4 5 "),
-        replaced("4 5 6 ", ""),
-        replaced("4 5 6 ", "4.5. 5 6 "),
-        replaced("4 5 6 ", "dbw3 0 3 4 5 6 "),
-        replaced("1 2 3 ", "dbw3 0 3 1 2 3 "),
-        replaced("1 2 3 ", "dbw3"),
-        replaced("1 2 3 ", "dbw3 0 0 "),
-        replaced("1 2 3 ", ""),
-        replaced("1 2 3 ", "dbw3 7 3 1 2 3 "),
-        replaced("1 2 3 ", "dbw3 0 99999 1 2 3 "),
-        replaced("vocabulary:", "vocabulary"),
-        replaced("vocabulary:", "database:"),
+       {yamlWith(words, ""),
+        yamlWith("      - { wordId:1, nodeId:3 }\n", ""),
+        yamlWith("wordId:1, nodeId:3", "wordId:0, nodeId:3"),
+        yamlWith("wordId:1, nodeId:3", "wordId:1, nodeId:1"),
+        yamlWith("wordId:1, nodeId:3", "wordId:99999999, nodeId:3"),
+        yamlWith("wordId:1, nodeId:3", "wordId:1, nodeId:0"),
+        yamlWith("wordId:1, nodeId:3", "wordId:1, wordId:3"),
+        yamlWith("wordId:1", "wordId:-1"),
+        yamlWith("nodeId:1, parentId:0", "nodeId:1, parentId:3"),  // a circle
+        yamlWith("nodeId:1,", "nodeId:0,"),
+        yamlWith("nodeId:1,", "nodeId:4294967297,"),
+        yamlWith("k: 2", "k: 1"),
+        yamlWith("k: 2", "k: 65"),
+        yamlWith("L: 2", "L: 1"),
+        yamlWith("L: 2", "L: 99999999999"),
+        yamlWith("scoringType: 3", "scoringType: 6"),
+        yamlWith("weightingType: 1", "weightingType: 4"),
+        yamlWith("\"4 5 6 \"", "\"4 5 6 "),
+        yamlWith("4 5 6 ", "4 5 "),
+        yamlWith("4 5 6 ", ""),
+        yamlWith("4 5 6 ", "4.5. 5 6 "),
+        yamlWith("4 5 6 ", "dbw3 0 3 4 5 6 "),
+        yamlWith("1 2 3 ", "dbw3 0 3 1 2 3 "),
+        yamlWith("1 2 3 ", "dbw3"),
+        yamlWith("1 2 3 ", "dbw3 0 0 "),
+        yamlWith("1 2 3 ", ""),
+        yamlWith("1 2 3 ", "dbw3 7 3 1 2 3 "),
+        yamlWith("1 2 3 ", "dbw3 0 99999 1 2 3 "),
+        yamlWith("vocabulary:", "vocabulary"),
+        yamlWith("vocabulary:", "database:"),
         std::string("%YAML:1.0\n---\n"),
         std::string("%YAML:1.0"),
         std::string("vocabulary:"),
         std::string("---\nvocabulary:\n   k: 2\n   nodes:\n   words:\n"),
-        std::string(kSmall) + "and more",
-        std::string(kSmall) + std::string(1, '\0')}) {
+        std::string(kSmallYaml) + "and more",
+        std::string(kSmallYaml) + std::string(1, '\0')}) {
     EXPECT_NE(errorOf(text), "") << text;
   }
 }

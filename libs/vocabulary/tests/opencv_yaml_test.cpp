@@ -8,11 +8,12 @@
 #include <limits>
 #include <opencv2/core/persistence.hpp>
 #include <string>
-#include <vector>
 
 #include "toy_tree.h"
 
 namespace {
+
+using toy::load;
 
 std::string saveAsDbow(const toy::Tree& tree, const std::string& prefix) {
   cv::FileStorage file(".yml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY);
@@ -41,11 +42,6 @@ std::string saveAsDbow(const toy::Tree& tree, const std::string& prefix) {
   file << "]"
        << "}";
   return file.releaseAndGetString();
-}
-
-gslam::Vocabulary load(const std::string& text) {
-  const std::vector<std::uint8_t> bytes = toy::bytesOfText(text);
-  return gslam::loadVocabulary(gslam::Span<const std::uint8_t>(bytes), "opencv.yml");
 }
 
 TEST(opencv_yaml, files_are_read) {

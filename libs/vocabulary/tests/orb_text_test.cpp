@@ -20,21 +20,8 @@
 namespace {
 
 using gslam::Vocabulary;
-
-Vocabulary load(const std::string& text) {
-  const std::vector<std::uint8_t> bytes = toy::bytesOfText(text);
-  return gslam::loadVocabulary(gslam::Span<const std::uint8_t>(bytes), "toy.txt");
-}
-
-// "" where there is no error.
-std::string errorOf(const std::string& text) {
-  try {
-    load(text);
-  } catch (const gslam::ParseError& error) {
-    return error.what();
-  }
-  return "";
-}
+using toy::errorOf;
+using toy::load;
 
 std::string fileText(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -105,15 +92,15 @@ void expectSameAsOrbSlam(const Vocabulary& vocabulary, const std::vector<OrbSlam
   }
 }
 
-const char kSmall[] =
+const char kSmallOrbText[] =
     "2 2 0 0\n"
     "0 0 1 2 3 0\n"
     "0 1 4 5 6 0.5\n"
     "1 1 7 8 9 1.5\n"
     "1 1 10 11 12 2.5\n";
 
-std::string replaced(const std::string& from, const std::string& to) {
-  std::string text = kSmall;
+std::string orbTextWith(const std::string& from, const std::string& to) {
+  std::string text = kSmallOrbText;
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos);
   return text.replace(at, from.size(), to);
@@ -163,45 +150,46 @@ TEST(orb_text, pieces_of_any_size_give_the_same) {
 }
 
 TEST(orb_text, errors_name_the_line_and_the_column) {
-  EXPECT_EQ(errorOf(kSmall), "");
-  EXPECT_EQ(errorOf(replaced("8 9", "8 256")),
-            "toy.txt:4:9: expected a byte of 0 to 255, got '256'");
-  EXPECT_EQ(errorOf(replaced("8 9", "8 -9")), "toy.txt:4:9: expected a byte of 0 to 255, got '-9'");
-  EXPECT_EQ(errorOf(replaced("8 9", "8 .9")), "toy.txt:4:9: expected a byte of 0 to 255, got '.9'");
-  EXPECT_EQ(errorOf(replaced(" 0.5", "")),
-            "toy.txt:3:10: expected a weight, got the end of the line");
-  EXPECT_EQ(errorOf(replaced("0.5", "0.5 1")),
-            "toy.txt:3:15: expected the end of the line, got '1'");
-  EXPECT_EQ(errorOf(replaced("1 1 7", "3 1 7")),
-            "toy.txt:4:1: the parent 3 of node 3 does not come before it");
-  EXPECT_EQ(errorOf(replaced("1 1 7", "1 2 7")),
-            "toy.txt:4:3: expected the mark of a leaf of 0 to 1, got '2'");
-  EXPECT_EQ(errorOf(replaced("1 1 7", "1 0 7")),
-            "toy.txt:4: node 3 is not marked as a leaf, but has no children");
-  EXPECT_EQ(errorOf(replaced("0 0 1", "0 1 1")),
-            "toy.txt:2: node 1 is marked as a leaf, but has children");
-  EXPECT_EQ(errorOf(replaced("2 2 0 0", "65 2 0 0")),
-            "toy.txt:1:1: expected the branching K of 2 to 64, got '65'");
-  EXPECT_EQ(errorOf(replaced("2 2 0 0", "2 0 0 0")),
-            "toy.txt:1:3: expected the depth L of 1 to 64, got '0'");
-  EXPECT_EQ(errorOf(replaced("2 2 0 0", "2 2 6 0")),
-            "toy.txt:1:5: expected the number of a scoring of 0 to 5, got '6'");
-  EXPECT_EQ(errorOf(replaced("2 2 0 0", "2 2 0 4")),
-            "toy.txt:1:7: expected the number of a weighting of 0 to 3, got '4'");
-  EXPECT_EQ(errorOf(replaced("2 2 0 0\n", "2 2 0\n")),
-            "toy.txt:1:6: expected the number of a weighting of 0 to 3, got the end of the line");
+  EXPECT_EQ(errorOf(kSmallOrbText), "");
+  EXPECT_EQ(errorOf(orbTextWith("8 9", "8 256")),
+            "toy:4:9: expected a byte of 0 to 255, got '256'");
+  EXPECT_EQ(errorOf(orbTextWith("8 9", "8 -9")), "toy:4:9: expected a byte of 0 to 255, got '-9'");
+  EXPECT_EQ(errorOf(orbTextWith("8 9", "8 .9")), "toy:4:9: expected a byte of 0 to 255, got '.9'");
+  EXPECT_EQ(errorOf(orbTextWith(" 0.5", "")),
+            "toy:3:10: expected a weight, got the end of the line");
+  EXPECT_EQ(errorOf(orbTextWith("0.5", "0.5 1")),
+            "toy:3:15: expected the end of the line, got '1'");
+  EXPECT_EQ(errorOf(orbTextWith("1 1 7", "3 1 7")),
+            "toy:4:1: the parent 3 of node 3 does not come before it");
+  EXPECT_EQ(errorOf(orbTextWith("1 1 7", "1 2 7")),
+            "toy:4:3: expected the mark of a leaf of 0 to 1, got '2'");
+  EXPECT_EQ(errorOf(orbTextWith("1 1 7", "1 0 7")),
+            "toy:4: node 3 is not marked as a leaf, but has no children");
+  EXPECT_EQ(errorOf(orbTextWith("0 0 1", "0 1 1")),
+            "toy:2: node 1 is marked as a leaf, but has children");
+  EXPECT_EQ(errorOf(orbTextWith("2 2 0 0", "65 2 0 0")),
+            "toy:1:1: expected the branching K of 2 to 64, got '65'");
+  EXPECT_EQ(errorOf(orbTextWith("2 2 0 0", "2 0 0 0")),
+            "toy:1:3: expected the depth L of 1 to 64, got '0'");
+  EXPECT_EQ(errorOf(orbTextWith("2 2 0 0", "2 2 6 0")),
+            "toy:1:5: expected the number of a scoring of 0 to 5, got '6'");
+  EXPECT_EQ(errorOf(orbTextWith("2 2 0 0", "2 2 0 4")),
+            "toy:1:7: expected the number of a weighting of 0 to 3, got '4'");
+  EXPECT_EQ(errorOf(orbTextWith("2 2 0 0\n", "2 2 0\n")),
+            "toy:1:6: expected the number of a weighting of 0 to 3, got the end of the line");
 }
 
 TEST(orb_text, other_wrong_files_are_refused) {
   for (const std::string& text :
        {std::string("2 2 0 0"), std::string("2 2 0 0\n"), std::string("2 2 0 0\n\n\n"),
-        std::string("2 2 0 0\n0 1 5\n"), replaced("2 2 0 0", "1 2 0 0"),
-        replaced("2 2 0 0", "65 2 0 0"), replaced("2 2 0 0", "2 1 0 0"),
-        replaced("2 2 0 0", "2 999999999999 0 0"), replaced("0.5", "nan"), replaced("0.5", "-1"),
-        replaced("0.5", "1e999"), replaced("4 5 6", "4 5"), replaced("4 5 6", "4 5 6 7"),
-        replaced("0 1 4", "-1 1 4"), replaced("0 1 4", "99999999999 1 4"),
-        replaced("0.5\n", "0.5\n\n"), replaced("0 1 4 5 6 0.5\n", "0 1 4 5 6 0.5 "),
-        replaced("1 1 10", "0 1 10"), std::string("2 2 0 0\n") + std::string(200000, '\n') + "0"}) {
+        std::string("2 2 0 0\n0 1 5\n"), orbTextWith("2 2 0 0", "1 2 0 0"),
+        orbTextWith("2 2 0 0", "65 2 0 0"), orbTextWith("2 2 0 0", "2 1 0 0"),
+        orbTextWith("2 2 0 0", "2 999999999999 0 0"), orbTextWith("0.5", "nan"),
+        orbTextWith("0.5", "-1"), orbTextWith("0.5", "1e999"), orbTextWith("4 5 6", "4 5"),
+        orbTextWith("4 5 6", "4 5 6 7"), orbTextWith("0 1 4", "-1 1 4"),
+        orbTextWith("0 1 4", "99999999999 1 4"), orbTextWith("0.5\n", "0.5\n\n"),
+        orbTextWith("0 1 4 5 6 0.5\n", "0 1 4 5 6 0.5 "), orbTextWith("1 1 10", "0 1 10"),
+        std::string("2 2 0 0\n") + std::string(200000, '\n') + "0"}) {
     EXPECT_NE(errorOf(text), "") << text.substr(0, 100);
   }
 }

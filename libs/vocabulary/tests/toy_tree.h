@@ -2,7 +2,9 @@
 #ifndef GSLAM_VOCABULARY_TESTS_TOY_TREE_H
 #define GSLAM_VOCABULARY_TESTS_TOY_TREE_H
 
+#include <gslam/base/error.h>
 #include <gslam/vocabulary/detail/tree_view.h>
+#include <gslam/vocabulary/load.h>
 #include <gslam/vocabulary/vocabulary.h>
 #include <gtest/gtest.h>
 
@@ -276,6 +278,24 @@ inline std::vector<std::uint8_t> fbow(const Tree& tree,
 
 inline std::vector<std::uint8_t> bytesOfText(const std::string& text) {
   return std::vector<std::uint8_t>(text.begin(), text.end());
+}
+
+inline gslam::Vocabulary load(const std::vector<std::uint8_t>& bytes) {
+  return gslam::loadVocabulary(gslam::Span<const std::uint8_t>(bytes), "toy");
+}
+inline gslam::Vocabulary load(const std::string& text) {
+  return load(bytesOfText(text));
+}
+
+/// "" where there is no error.
+template <class Content>
+std::string errorOf(const Content& content) {
+  try {
+    load(content);
+  } catch (const gslam::ParseError& error) {
+    return error.what();
+  }
+  return "";
 }
 
 /// Everything but scoring and weighting, which not all formats have.

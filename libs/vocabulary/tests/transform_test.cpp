@@ -141,7 +141,7 @@ class Transform : public testing::TestWithParam<gslam::Simd> {
   gslam::ScopedSimd scope_;
 };
 
-std::string nameOf(const testing::TestParamInfo<gslam::Simd>& info) {
+std::string variantName(const testing::TestParamInfo<gslam::Simd>& info) {
   return gslam::simdName(info.param);
 }
 
@@ -198,7 +198,7 @@ TEST_P(Transform, DoesNotTruncateDistances) {
   expectSame(bow, features, plainBags(data, descriptors, 1));
 }
 
-INSTANTIATE_TEST_SUITE_P(simd, Transform, testing::ValuesIn(gslam::availableSimd()), nameOf);
+INSTANTIATE_TEST_SUITE_P(simd, Transform, testing::ValuesIn(gslam::availableSimd()), variantName);
 
 TEST(transform, WeighsAndNormalisesAsDBoW) {
   TreeData data = random_tree::dataOf(formatOf(DescriptorType::binary, 32), 6, 3, true);
