@@ -17,6 +17,8 @@
 #include <utility>
 #include <vector>
 
+#include "problem_when.h"
+
 namespace {
 
 using gslam::ArgumentError;
@@ -29,13 +31,8 @@ constexpr PixelType kAllTypes[] = {PixelType::u8,  PixelType::i8,  PixelType::u1
                                    PixelType::u32, PixelType::i64, PixelType::u64};
 
 template <class Function>
-std::string problemOf(Function function) {
-  try {
-    function();
-  } catch (const ArgumentError& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
+std::string imageProblem(Function function) {
+  return problemWhen<ArgumentError>(function);
 }
 
 // Each byte tells where it is.
@@ -210,7 +207,7 @@ TEST(Image, AViewOutsideIsRefused) {
                         {5, 4, 0, 0},  {INT_MAX, 0, 1, 1}, {1, 1, INT_MAX, 1}, {INT_MIN, 0, 1, 1},
                         {0, 0, -1, -1}};
   for (const auto& part : bad) {
-    EXPECT_THAT(problemOf([&] { image.view(part[0], part[1], part[2], part[3]); }),
+    EXPECT_THAT(imageProblem([&] { image.view(part[0], part[1], part[2], part[3]); }),
                 HasSubstr("inside of 5 x 4 u8"));
   }
   EXPECT_THROW(Image().view(0, 0, 1, 1), ArgumentError);
@@ -338,48 +335,49 @@ TEST(Image, ThreadsLetGoOfForeignPixelsOnce) {
 }
 
 TEST(Image, SizesThatCannotBeAreRefused) {
-  EXPECT_THAT(problemOf([] { Image(-1, 5, PixelType::u8); }), HasSubstr("-1 x 5"));
-  EXPECT_THAT(problemOf([] { Image(0, 5, PixelType::u8); }), HasSubstr("0 x 5"));
-  EXPECT_THAT(problemOf([] { Image(5, 0, PixelType::u8); }), HasSubstr("5 x 0"));
-  EXPECT_THAT(problemOf([] { Image(5, 5, PixelType::u8, 0); }), HasSubstr("channels is 0"));
-  EXPECT_THAT(problemOf([] { Image(5, 5, PixelType::u8, 65536); }), HasSubstr("65536"));
-  EXPECT_THAT(problemOf([] { Image(5, 5, static_cast<PixelType>(11)); }), HasSubstr("no type"));
-  EXPECT_THAT(problemOf([] { Image(INT_MAX, INT_MAX, PixelType::u8); }), HasSubstr("memory"));
-  EXPECT_THAT(problemOf([] { Image(INT_MAX, 1, PixelType::f64, 65535); }), HasSubstr("memory"));
-  EXPECT_THAT(problemOf([] { Image(INT_MAX, INT_MAX, PixelType::u64, 65535); }),
+  EXPECT_THAT(imageProblem([] { Image(-1, 5, PixelType::u8); }), HasSubstr("-1 x 5"));
+  EXPECT_THAT(imageProblem([] { Image(0, 5, PixelType::u8); }), HasSubstr("0 x 5"));
+  EXPECT_THAT(imageProblem([] { Image(5, 0, PixelType::u8); }), HasSubstr("5 x 0"));
+  EXPECT_THAT(imageProblem([] { Image(5, 5, PixelType::u8, 0); }), HasSubstr("channels is 0"));
+  EXPECT_THAT(imageProblem([] { Image(5, 5, PixelType::u8, 65536); }), HasSubstr("65536"));
+  EXPECT_THAT(imageProblem([] { Image(5, 5, static_cast<PixelType>(11)); }), HasSubstr("no type"));
+  EXPECT_THAT(imageProblem([] { Image(INT_MAX, INT_MAX, PixelType::u8); }), HasSubstr("memory"));
+  EXPECT_THAT(imageProblem([] { Image(INT_MAX, 1, PixelType::f64, 65535); }), HasSubstr("memory"));
+  EXPECT_THAT(imageProblem([] { Image(INT_MAX, INT_MAX, PixelType::u64, 65535); }),
               HasSubstr("memory"));
   // 2^64 bytes and a few more, which a product of 64 bits would take for a few.
-  EXPECT_THAT(problemOf([] { Image(1 << 30, 1 << 30, PixelType::u8, 16); }), HasSubstr("memory"));
+  EXPECT_THAT(imageProblem([] { Image(1 << 30, 1 << 30, PixelType::u8, 16); }),
+              HasSubstr("memory"));
 }
 
 TEST(Image, StridesThatCannotBeAreRefused) {
   alignas(8) std::uint8_t memory[256] = {};
   const auto wrap = [&memory](int width, int height, PixelType type, std::size_t stride) {
-    return problemOf([&] { Image::wrap(memory, width, height, type, 1, stride, nullptr); });
+    return imageProblem([&] { Image::wrap(memory, width, height, type, 1, stride, nullptr); });
   };
   EXPECT_THAT(wrap(5, 2, PixelType::u8, 4), HasSubstr("expected 5"));
   EXPECT_THAT(wrap(4, 2, PixelType::f32, 18), HasSubstr("multiple"));
   EXPECT_THAT(wrap(4, 2, PixelType::f32, SIZE_MAX - 3), HasSubstr("memory"));
   EXPECT_THAT(wrap(4, INT_MAX, PixelType::u8, std::size_t(1) << 40), HasSubstr("memory"));
-  EXPECT_THAT(problemOf([&] { Image::wrap(memory + 1, 2, 2, PixelType::u16, 1, 0, nullptr); }),
+  EXPECT_THAT(imageProblem([&] { Image::wrap(memory + 1, 2, 2, PixelType::u16, 1, 0, nullptr); }),
               HasSubstr("aligned for u16"));
-  EXPECT_THAT(problemOf([&] { Image::wrap(memory + 4, 2, 2, PixelType::f64, 1, 0, nullptr); }),
+  EXPECT_THAT(imageProblem([&] { Image::wrap(memory + 4, 2, 2, PixelType::f64, 1, 0, nullptr); }),
               HasSubstr("aligned for f64"));
-  EXPECT_THAT(problemOf([&] { Image::wrap(nullptr, 2, 2, PixelType::u8, 1, 0, nullptr); }),
+  EXPECT_THAT(imageProblem([&] { Image::wrap(nullptr, 2, 2, PixelType::u8, 1, 0, nullptr); }),
               HasSubstr("null"));
 }
 
 TEST(Image, WrongTypesAndPlacesAreRefused) {
   Image image(4, 3, PixelType::u8, 2);
   const Image& same = image;
-  EXPECT_THAT(problemOf([&] { image.row<float>(0); }), HasSubstr("f32"));
-  EXPECT_THAT(problemOf([&] { same.row<std::int8_t>(0); }), HasSubstr("i8"));
+  EXPECT_THAT(imageProblem([&] { image.row<float>(0); }), HasSubstr("f32"));
+  EXPECT_THAT(imageProblem([&] { same.row<std::int8_t>(0); }), HasSubstr("i8"));
   EXPECT_THROW(image.span<double>(), ArgumentError);
   EXPECT_THROW(same.span<double>(), ArgumentError);
   EXPECT_THROW(image.at<double>(0, 0), ArgumentError);
   const int bad[][3] = {{4, 0, 0}, {0, 3, 0}, {0, 0, 2}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
   for (const auto& place : bad) {
-    EXPECT_THAT(problemOf([&] { image.at<std::uint8_t>(place[0], place[1], place[2]); }),
+    EXPECT_THAT(imageProblem([&] { image.at<std::uint8_t>(place[0], place[1], place[2]); }),
                 HasSubstr("outside of 4 x 3 u8 x 2"));
     EXPECT_THROW(same.at<std::uint8_t>(place[0], place[1], place[2]), ArgumentError);
   }

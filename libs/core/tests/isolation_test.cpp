@@ -19,6 +19,7 @@
 #include <thread>
 #include <vector>
 
+#include "resident_bytes.h"
 #include "toy_frames.h"
 
 #if GSLAM_DETAIL_HAS_ISOLATION
@@ -357,13 +358,6 @@ TEST_F(Isolation, ReusesItsMemory) {
   const std::uint64_t first = slam.sharedBytes();
   for (std::uint64_t id = 1; id < 100; ++id) slam.feed(toyFrame(id, 10));
   EXPECT_EQ(slam.sharedBytes(), first);
-}
-
-// Bytes that the process has in memory, from the system.
-long residentBytes() {
-  long pages = 0, resident = 0;
-  std::ifstream("/proc/self/statm") >> pages >> resident;
-  return resident * ::sysconf(_SC_PAGESIZE);
 }
 
 TEST_F(Isolation, AThousandFramesLeakNothing) {

@@ -518,7 +518,7 @@ void addSection(Bytes& bytes, std::size_t place, const std::string& tag, const B
   sign(bytes);
 }
 
-std::string problemOf(const Bytes& bytes) {
+std::string mapProblem(const Bytes& bytes) {
   try {
     mapFromBytes(bytes, "x.map");
   } catch (const gslam::ParseError& error) {
@@ -540,8 +540,8 @@ TEST(MapFile, BelievesNoCount) {
   for (const char* const tag : {"RIG ", "KEYF", "PNTS", "SHAP", "DESC", "OBSV", "EDGE"}) {
     Bytes bytes = mapToBytes(Map());
     addSection(bytes, bytes.size() - 32, tag, huge);
-    EXPECT_THAT(problemOf(bytes), HasSubstr("x.map: byte ")) << tag;
-    EXPECT_THAT(problemOf(bytes), HasSubstr("a count of 4294967295 with 0 bytes left")) << tag;
+    EXPECT_THAT(mapProblem(bytes), HasSubstr("x.map: byte ")) << tag;
+    EXPECT_THAT(mapProblem(bytes), HasSubstr("a count of 4294967295 with 0 bytes left")) << tag;
   }
 }
 
@@ -573,16 +573,16 @@ TEST(MapFile, TakesNoMoreMemoryThanItSays) {
 }
 
 TEST(MapFile, SaysWhatIsWrong) {
-  EXPECT_THAT(problemOf(Bytes(100, 'x')), HasSubstr("x.map: byte 16: is no GSLAM map"));
+  EXPECT_THAT(mapProblem(Bytes(100, 'x')), HasSubstr("x.map: byte 16: is no GSLAM map"));
   Bytes bytes = mapToBytes(Map());
   bytes[8] = 2;
-  EXPECT_THAT(problemOf(bytes), HasSubstr("has version 2 of the format, expected 1"));
+  EXPECT_THAT(mapProblem(bytes), HasSubstr("has version 2 of the format, expected 1"));
   bytes = mapToBytes(Map());
   bytes.push_back(0);
-  EXPECT_THAT(problemOf(bytes), HasSubstr("behind its end"));
+  EXPECT_THAT(mapProblem(bytes), HasSubstr("behind its end"));
   bytes = mapToBytes(smallMap());
   bytes[200] ^= 1;
-  EXPECT_THAT(problemOf(bytes), HasSubstr("checksum"));
+  EXPECT_THAT(mapProblem(bytes), HasSubstr("checksum"));
 }
 
 TEST(MapFile, RefusesAPointThatIsThereTwice) {
@@ -592,7 +592,7 @@ TEST(MapFile, RefusesAPointThatIsThereTwice) {
   Bytes payload(4 + 52);
   payload[0] = 1;
   addSection(bytes, bytes.size() - 32, "PNTS", payload);
-  EXPECT_THAT(problemOf(bytes), HasSubstr("point 0 is in the map already"));
+  EXPECT_THAT(mapProblem(bytes), HasSubstr("point 0 is in the map already"));
 }
 
 // ---- files

@@ -18,7 +18,7 @@ Svar defaults() {
                        {"any", nullptr}});
 }
 
-std::string problemOf(const Svar& given) {
+std::string parameterProblem(const Svar& given) {
   try {
     completeParameters(defaults(), given);
   } catch (const SvarError& error) {
@@ -49,15 +49,16 @@ TEST(Parameters, DefaultsStayAsTheyWere) {
 }
 
 TEST(Parameters, SaysWhatIsWrong) {
-  EXPECT_EQ(problemOf(Svar::object({{"feature", 1}})),
+  EXPECT_EQ(parameterProblem(Svar::object({{"feature", 1}})),
             "feature: is no parameter of it, did you mean features?");
-  EXPECT_EQ(problemOf(Svar::object({{"features", 1.5}})), "features: expected int, found double");
-  EXPECT_EQ(problemOf(Svar::object({{"name", 1}})), "name: expected string, found int");
-  EXPECT_EQ(problemOf(Svar::object({{"loop", Svar::object({{"scores", 1}})}})),
+  EXPECT_EQ(parameterProblem(Svar::object({{"features", 1.5}})),
+            "features: expected int, found double");
+  EXPECT_EQ(parameterProblem(Svar::object({{"name", 1}})), "name: expected string, found int");
+  EXPECT_EQ(parameterProblem(Svar::object({{"loop", Svar::object({{"scores", 1}})}})),
             "loop.scores: is no parameter of it, did you mean score?");
-  EXPECT_EQ(problemOf(Svar::object({{"loop", true}})), "loop: expected object, found bool");
-  EXPECT_EQ(problemOf(Svar::object({{"zzzzzz", 1}})), "zzzzzz: is no parameter of it");
-  EXPECT_NE(problemOf(5), "none");
+  EXPECT_EQ(parameterProblem(Svar::object({{"loop", true}})), "loop: expected object, found bool");
+  EXPECT_EQ(parameterProblem(Svar::object({{"zzzzzz", 1}})), "zzzzzz: is no parameter of it");
+  EXPECT_NE(parameterProblem(5), "none");
 }
 
 TEST(Parameters, NullIsNoParameter) {

@@ -16,6 +16,9 @@
 #include <string>
 #include <vector>
 
+#include "problem_when.h"
+#include "resident_bytes.h"
+
 namespace {
 
 using gslam::BuildFacts;
@@ -102,15 +105,6 @@ std::string refusalOf(const std::function<void(PluginEntry&)>& change) {
   return refusal;
 }
 
-std::string failureOf(const std::function<void()>& call) {
-  try {
-    call();
-    return "";
-  } catch (const gslam::Error& error) {
-    return error.what();
-  }
-}
-
 TEST(Plugins, LoadFromAFile) {
   Plugins plugins(kNowhere);
   const gslam::Plugin& toy = plugins.load(kToy);
@@ -187,7 +181,7 @@ TEST(Plugins, OfTheSameNameAreRefused) {
   const std::string twin = folder.add("twin.so", contentOf(kToy));
   Plugins plugins(kNowhere);
   plugins.load(kToy);
-  EXPECT_THAT(failureOf([&] { plugins.load(twin); }),
+  EXPECT_THAT(problemWhen([&] { plugins.load(twin); }),
               AllOf(HasSubstr(twin), HasSubstr("'toy'"), HasSubstr(kToy)));
 }
 
@@ -294,7 +288,7 @@ TEST(Plugins, ThatThrowLeaveAllAsItWas) {
   Plugins plugins(kNowhere);
   plugins.load(kToy);
   const std::size_t slams = plugins.registry().slams().size();
-  const std::string failure = failureOf([&] { plugins.load(GSLAM_TEST_PLUGIN_THROWS); });
+  const std::string failure = problemWhen([&] { plugins.load(GSLAM_TEST_PLUGIN_THROWS); });
   EXPECT_THAT(failure, AllOf(HasSubstr(GSLAM_TEST_PLUGIN_THROWS), HasSubstr("'broken'"),
                              HasSubstr("no batteries")));
   EXPECT_EQ(plugins.registry().slams().size(), slams);
@@ -307,7 +301,7 @@ TEST(Plugins, MayNotBringANameThatIsTaken) {
   own.name = "toy_crashes";
   own.make = [] { return std::unique_ptr<gslam::Slam>(); };
   plugins.add(own);
-  const std::string failure = failureOf([&] { plugins.load(kToy); });
+  const std::string failure = problemWhen([&] { plugins.load(kToy); });
   EXPECT_THAT(failure, AllOf(HasSubstr("'toy_crashes'"), HasSubstr("this program")));
   EXPECT_EQ(plugins.registry().slams().size(), 1u);
   EXPECT_EQ(plugins.registry().datasets().size(), 0u);
@@ -339,15 +333,15 @@ TEST(Plugins, AreResolvedByNameOrPath) {
   EXPECT_EQ(Plugins(kNowhere).application(kToy).name, "toy_waiter");
   EXPECT_EQ(Plugins(kNowhere).slam(kToy + ":toy_throws").name, "toy_throws");
   Plugins plugins({folder.path()});
-  EXPECT_THAT(failureOf([&] { plugins.slam(kToy); }),
+  EXPECT_THAT(problemWhen([&] { plugins.slam(kToy); }),
               AllOf(HasSubstr("several"), HasSubstr(kToy + ":toy"), HasSubstr("toy_throws")));
-  EXPECT_THAT(failureOf([&] { plugins.slam("x"); }), HasSubstr("several"));
+  EXPECT_THAT(problemWhen([&] { plugins.slam("x"); }), HasSubstr("several"));
   EXPECT_THAT(
-      failureOf([&] { plugins.slam(kToy + ":toy_thrws"); }),
+      problemWhen([&] { plugins.slam(kToy + ":toy_thrws"); }),
       AllOf(HasSubstr("no SLAM system 'toy_thrws'"), HasSubstr("did you mean toy_throws?")));
-  EXPECT_THAT(failureOf([&] { plugins.slam("./none.so"); }), HasSubstr("does not exist"));
-  EXPECT_THAT(failureOf([&] { plugins.slam(""); }), HasSubstr("is empty"));
-  EXPECT_THAT(failureOf([&] { plugins.load(""); }), HasSubstr("is empty"));
+  EXPECT_THAT(problemWhen([&] { plugins.slam("./none.so"); }), HasSubstr("does not exist"));
+  EXPECT_THAT(problemWhen([&] { plugins.slam(""); }), HasSubstr("is empty"));
+  EXPECT_THAT(problemWhen([&] { plugins.load(""); }), HasSubstr("is empty"));
 }
 
 TEST(Plugins, ThatAreMissingSayWhereTheyWereLookedFor) {
@@ -355,11 +349,11 @@ TEST(Plugins, ThatAreMissingSayWhereTheyWereLookedFor) {
   folder.link("libgslam_x.so", kToy);
   folder.add("text.so", "hello");
   Plugins plugins({folder.path(), "/not/there"});
-  EXPECT_THAT(failureOf([&] { plugins.slam("toi"); }),
+  EXPECT_THAT(problemWhen([&] { plugins.slam("toi"); }),
               AllOf(HasSubstr("no SLAM system 'toi'"), HasSubstr("did you mean toy?"),
                     HasSubstr(folder.path()), HasSubstr("/not/there (does not exist)"),
                     HasSubstr("GSLAM_PLUGIN_PATH"), HasSubstr("text.so: is no shared library")));
-  EXPECT_THAT(failureOf([&] { plugins.load("toi"); }),
+  EXPECT_THAT(problemWhen([&] { plugins.load("toi"); }),
               AllOf(HasSubstr("libgslam_toi.so"), HasSubstr(folder.path())));
 }
 
@@ -367,19 +361,19 @@ TEST(Plugins, RecognizeDatasets) {
   Folder folder;
   const std::string path = folder.add("toy_data.bin", "x");
   Plugins plugins({folder.path()});
-  EXPECT_THAT(failureOf([&] { plugins.datasetFor(path); }), HasSubstr("none"));
+  EXPECT_THAT(problemWhen([&] { plugins.datasetFor(path); }), HasSubstr("none"));
   plugins.load(kToy);
   EXPECT_EQ(plugins.datasetFor(path).name, "toy_data");
-  EXPECT_THAT(failureOf([&] { plugins.datasetFor(kToy); }),
+  EXPECT_THAT(problemWhen([&] { plugins.datasetFor(kToy); }),
               AllOf(HasSubstr(kToy), HasSubstr("toy_data")));
-  EXPECT_THAT(failureOf([&] { plugins.datasetFor("/not/there"); }), HasSubstr("does not exist"));
+  EXPECT_THAT(problemWhen([&] { plugins.datasetFor("/not/there"); }), HasSubstr("does not exist"));
   gslam::DatasetFactory other = plugins.dataset("toy_data");
   other.name = "other";
   plugins.add(other);
   other.name = "thrower";
   other.recognizes = [](const std::string&) -> bool { throw gslam::Error("no"); };
   plugins.add(other);
-  EXPECT_THAT(failureOf([&] { plugins.datasetFor(path); }), HasSubstr("toy_data, other"));
+  EXPECT_THAT(problemWhen([&] { plugins.datasetFor(path); }), HasSubstr("toy_data, other"));
 }
 
 TEST(Plugins, ExceptionsKeepTheirTypes) {
@@ -424,13 +418,6 @@ TEST(Plugins, AreDescribedForMachines) {
   EXPECT_EQ(all.get<int>("plugins.2.slams.0.needs.cameras"), 1);
   EXPECT_EQ(all["refused"].size(), 1u);
   EXPECT_THAT(all.get<std::string>("refused.0.path"), HasSubstr("text.so"));
-}
-
-// Bytes that the process has in memory, from the system.
-long residentBytes() {
-  long pages = 0, resident = 0;
-  std::ifstream("/proc/self/statm") >> pages >> resident;
-  return resident * ::sysconf(_SC_PAGESIZE);
 }
 
 TEST(Plugins, LoadedAThousandTimesLeakNothing) {

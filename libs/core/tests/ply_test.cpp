@@ -47,7 +47,7 @@ std::vector<MapPoint> parse(const std::string& text) {
   return gslam::parsePly(gslam::Span<const std::uint8_t>(bytes, text.size()), "x.ply");
 }
 
-std::string problemOf(const std::string& text) {
+std::string plyProblem(const std::string& text) {
   try {
     parse(text);
   } catch (const gslam::ParseError& error) {
@@ -221,20 +221,21 @@ TEST(Ply, ReadsBothOrdersOfBytes) {
 TEST(Ply, SaysWhatIsWrong) {
   const std::string begin = "ply\nformat ascii 1.0\n";
   const std::string xyz = "property float x\nproperty float y\nproperty float z\nend_header\n";
-  EXPECT_THAT(problemOf(""), HasSubstr("x.ply: ends in its header"));
-  EXPECT_THAT(problemOf("plyx\n"), HasSubstr("x.ply:1: is no PLY file"));
-  EXPECT_THAT(problemOf("ply\nformat text 1.0\n"), HasSubstr("x.ply:2: has a format"));
-  EXPECT_THAT(problemOf(begin + "end_header\n"), HasSubstr("has no vertices"));
-  EXPECT_THAT(problemOf("ply\nend_header\n"), HasSubstr("does not say its format"));
-  EXPECT_THAT(problemOf(begin + "property float x\n"), HasSubstr("before its first element"));
-  EXPECT_THAT(problemOf(begin + "element vertex -1\n"), HasSubstr("count"));
-  EXPECT_THAT(problemOf(begin + "element vertex 1\nproperty real x\n"), HasSubstr("x.ply:4"));
-  EXPECT_THAT(problemOf(begin + "element vertex 1\nproperty float x\nend_header\n1\n"),
+  EXPECT_THAT(plyProblem(""), HasSubstr("x.ply: ends in its header"));
+  EXPECT_THAT(plyProblem("plyx\n"), HasSubstr("x.ply:1: is no PLY file"));
+  EXPECT_THAT(plyProblem("ply\nformat text 1.0\n"), HasSubstr("x.ply:2: has a format"));
+  EXPECT_THAT(plyProblem(begin + "end_header\n"), HasSubstr("has no vertices"));
+  EXPECT_THAT(plyProblem("ply\nend_header\n"), HasSubstr("does not say its format"));
+  EXPECT_THAT(plyProblem(begin + "property float x\n"), HasSubstr("before its first element"));
+  EXPECT_THAT(plyProblem(begin + "element vertex -1\n"), HasSubstr("count"));
+  EXPECT_THAT(plyProblem(begin + "element vertex 1\nproperty real x\n"), HasSubstr("x.ply:4"));
+  EXPECT_THAT(plyProblem(begin + "element vertex 1\nproperty float x\nend_header\n1\n"),
               HasSubstr("without x, y and z"));
-  EXPECT_THAT(problemOf(begin + "element vertex 1\n" + xyz + "1 2\n     "), HasSubstr("too early"));
-  EXPECT_THAT(problemOf(begin + "element vertex 1\n" + xyz + "1 2\n3x\n"),
+  EXPECT_THAT(plyProblem(begin + "element vertex 1\n" + xyz + "1 2\n     "),
+              HasSubstr("too early"));
+  EXPECT_THAT(plyProblem(begin + "element vertex 1\n" + xyz + "1 2\n3x\n"),
               HasSubstr("x.ply:9: found '3x', expected a number"));
-  EXPECT_THAT(problemOf(begin + "element dust 5\nelement vertex 1\n" + xyz + "1 2 3\n"),
+  EXPECT_THAT(plyProblem(begin + "element dust 5\nelement vertex 1\n" + xyz + "1 2 3\n"),
               HasSubstr("'dust' without properties"));
 }
 
@@ -242,10 +243,10 @@ TEST(Ply, BelievesNoCount) {
   const std::string xyz = "property float x\nproperty float y\nproperty float z\nend_header\n";
   for (const char* const format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
     const std::string begin = std::string("ply\nformat ") + format + " 1.0\n";
-    EXPECT_THAT(problemOf(begin + "element vertex 9000000000000000000\n" + xyz + "1 2 3\n"),
+    EXPECT_THAT(plyProblem(begin + "element vertex 9000000000000000000\n" + xyz + "1 2 3\n"),
                 HasSubstr("a count of 9000000000000000000 with 6 bytes left"));
-    EXPECT_NE(problemOf(begin + "element face 1\nproperty list uint int i\nelement vertex 1\n" +
-                        xyz + "\xFF\xFF\xFF\xFF 1 2 3 4 5 6\n"),
+    EXPECT_NE(plyProblem(begin + "element face 1\nproperty list uint int i\nelement vertex 1\n" +
+                         xyz + "\xFF\xFF\xFF\xFF 1 2 3 4 5 6\n"),
               "");
   }
 }
@@ -259,7 +260,7 @@ TEST(Ply, RefusesEveryPrefix) {
     const std::string whole = saved(map, options);
     const std::size_t least = whole.size() - (is_binary ? 0 : 5);  // the last number may be shorter
     for (std::size_t size = 0; size < least; ++size) {
-      EXPECT_NE(problemOf(whole.substr(0, size)), "") << size;
+      EXPECT_NE(plyProblem(whole.substr(0, size)), "") << size;
     }
   }
 }

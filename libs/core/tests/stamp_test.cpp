@@ -17,7 +17,7 @@ using gslam::StampUnit;
 using testing::HasSubstr;
 
 template <class... Arguments>
-std::string problemOf(Arguments... arguments) {
+std::string stampProblem(Arguments... arguments) {
   try {
     return "read as " + std::to_string(parseStamp(arguments...));
   } catch (const ParseError& error) {
@@ -70,7 +70,7 @@ TEST(Stamp, TheNearestNanosecondIsTaken) {
   EXPECT_EQ(parseStamp("0.00000000005"), 0);
   EXPECT_EQ(parseStamp("0.9999999999"), 1000000000);
   EXPECT_EQ(parseStamp("9223372036.8547758074"), INT64_MAX);
-  EXPECT_THAT(problemOf("9223372036.8547758075"), HasSubstr("2262"));
+  EXPECT_THAT(stampProblem("9223372036.8547758075"), HasSubstr("2262"));
 }
 
 TEST(Stamp, EveryStampComesBack) {
@@ -95,20 +95,20 @@ TEST(Stamp, UnitsAreThousands) {
 }
 
 TEST(Stamp, AnotherUnitIsSuspected) {
-  EXPECT_THAT(problemOf("1403636579763555584"), HasSubstr("is it in nanoseconds?"));
-  EXPECT_THAT(problemOf("1403636579763555584.000000"), HasSubstr("is it in nanoseconds?"));
-  EXPECT_THAT(problemOf("1403636579763555"), HasSubstr("is it in microseconds?"));
-  EXPECT_THAT(problemOf("1403636579763"), HasSubstr("is it in milliseconds?"));
-  EXPECT_THAT(problemOf("1e300"), testing::Not(HasSubstr("is it in")));
-  EXPECT_THAT(problemOf("9223372036854775808", StampUnit::nanoseconds), HasSubstr("2262"));
+  EXPECT_THAT(stampProblem("1403636579763555584"), HasSubstr("is it in nanoseconds?"));
+  EXPECT_THAT(stampProblem("1403636579763555584.000000"), HasSubstr("is it in nanoseconds?"));
+  EXPECT_THAT(stampProblem("1403636579763555"), HasSubstr("is it in microseconds?"));
+  EXPECT_THAT(stampProblem("1403636579763"), HasSubstr("is it in milliseconds?"));
+  EXPECT_THAT(stampProblem("1e300"), testing::Not(HasSubstr("is it in")));
+  EXPECT_THAT(stampProblem("9223372036854775808", StampUnit::nanoseconds), HasSubstr("2262"));
 }
 
 TEST(Stamp, WhatIsNoNumberIsRefused) {
   for (const char* text : {"", " ", ".", "-", "+", "e5", "1e", "1e+", "--1", "1 ", " 1", "1.2.3",
                            "nan", "inf", "0x10", "1,5", "1s", "-.", ".e1"}) {
-    EXPECT_THAT(problemOf(text), HasSubstr("is no number of seconds")) << text;
+    EXPECT_THAT(stampProblem(text), HasSubstr("is no number of seconds")) << text;
   }
-  EXPECT_THAT(problemOf(std::string("1\0", 2)), HasSubstr("'1\\x00'"));
+  EXPECT_THAT(stampProblem(std::string("1\0", 2)), HasSubstr("'1\\x00'"));
 }
 
 }  // namespace

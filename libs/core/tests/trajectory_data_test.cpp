@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "pose_bits.h"
 #include "test_data.h"
 
 namespace {
@@ -49,10 +50,6 @@ std::vector<std::vector<std::string>> words(const std::string& path) {
     for (std::string word; fields >> word;) lines.back().push_back(word);
   }
   return lines;
-}
-
-std::string bitsOf(const SE3d& pose) {
-  return std::string(reinterpret_cast<const char*>(&pose), sizeof(pose));
 }
 
 // Seconds, their decimals filled up to nine.

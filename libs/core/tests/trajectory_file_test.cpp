@@ -16,6 +16,9 @@
 #include <string>
 #include <vector>
 
+#include "pose_bits.h"
+#include "problem_when.h"
+
 namespace {
 
 using gslam::DuplicateStamps;
@@ -38,21 +41,12 @@ Trajectory read(const std::string& text, TrajectoryFormat format = TrajectoryFor
   return parseTrajectory(text, "poses.txt", options);
 }
 
-template <class Function>
-std::string problemWhen(Function function) {
-  try {
-    function();
-  } catch (const gslam::Error& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
-
-std::string problemOf(const std::string& text, TrajectoryFormat format = TrajectoryFormat::any) {
+std::string trajectoryProblem(const std::string& text,
+                              TrajectoryFormat format = TrajectoryFormat::any) {
   return problemWhen([&] { read(text, format); });
 }
 
-Trajectory drawn(std::size_t count, unsigned seed) {
+Trajectory drawnTrajectory(std::size_t count, unsigned seed) {
   std::mt19937_64 random(seed);
   std::vector<StampedPose> poses;
   for (std::size_t i = 0; i < count; ++i) {
@@ -62,10 +56,6 @@ Trajectory drawn(std::size_t count, unsigned seed) {
     poses.push_back({stamp, SE3d(pose.rotation().normalized(), pose.translation())});
   }
   return Trajectory(poses);
-}
-
-std::string bitsOf(const SE3d& pose) {
-  return std::string(reinterpret_cast<const char*>(&pose), sizeof(pose));
 }
 
 void expectSame(const Trajectory& a, const Trajectory& b) {
@@ -117,14 +107,14 @@ TEST(TrajectoryFile, KittiHasRowsOfAMatrixAndNoStamps) {
 }
 
 TEST(TrajectoryFile, TumAndEurocComeBackToTheBit) {
-  const Trajectory t = drawn(2000, 1);
+  const Trajectory t = drawnTrajectory(2000, 1);
   for (const TrajectoryFormat format : {TrajectoryFormat::tum, TrajectoryFormat::euroc}) {
     expectSame(read(printTrajectory(t, format), format), t);
   }
 }
 
 TEST(TrajectoryFile, KittiComesBackToRounding) {
-  const Trajectory t = drawn(500, 2);
+  const Trajectory t = drawnTrajectory(500, 2);
   const Trajectory again = read(printTrajectory(t, TrajectoryFormat::kitti));
   ASSERT_EQ(again.size(), t.size());
   for (std::size_t i = 0; i < t.size(); ++i) {
@@ -143,13 +133,16 @@ TEST(TrajectoryFile, TheFormatIsFound) {
   EXPECT_EQ(of("0,0,0,0,1,0,0,0,0,0,0,"), TrajectoryFormat::euroc);  // VINS-Mono's
   EXPECT_EQ(of("#timestamp [ns],p\n0,0,0,0,1,0,0,0"), TrajectoryFormat::euroc);
   EXPECT_EQ(of("#time(ns),p\n0,0,0,0,1,0,0,0"), TrajectoryFormat::euroc);
-  EXPECT_THAT(problemOf("0,0,0,0,1,0,0,0"), AllOf(StartsWith("poses.txt:1:1: "), HasSubstr("TUM"),
-                                                  HasSubstr("EuRoC"), HasSubstr("say which")));
+  EXPECT_THAT(trajectoryProblem("0,0,0,0,1,0,0,0"),
+              AllOf(StartsWith("poses.txt:1:1: "), HasSubstr("TUM"), HasSubstr("EuRoC"),
+                    HasSubstr("say which")));
   EXPECT_EQ(of("1403715273262142976,0,0,0,1,0,0,0,0,0,0,0"), TrajectoryFormat::euroc);
   EXPECT_EQ(of("1,0,0,0,0,1,0,0,0,0,1,0"), TrajectoryFormat::kitti);
-  EXPECT_THAT(problemOf("1 2 3"), HasSubstr("the line has 3 numbers, expected a line of TUM"));
-  EXPECT_THAT(problemOf("\n# x\n  1\n"), StartsWith("poses.txt:3:3: the line has 1 number, "));
-  EXPECT_THAT(problemOf("hello world"), HasSubstr("'hello', expected a finite number"));
+  EXPECT_THAT(trajectoryProblem("1 2 3"),
+              HasSubstr("the line has 3 numbers, expected a line of TUM"));
+  EXPECT_THAT(trajectoryProblem("\n# x\n  1\n"),
+              StartsWith("poses.txt:3:3: the line has 1 number, "));
+  EXPECT_THAT(trajectoryProblem("hello world"), HasSubstr("'hello', expected a finite number"));
 }
 
 TEST(TrajectoryFile, EightNumbersWithCommasAreNotGuessedWhereTumHasNanoseconds) {
@@ -192,11 +185,13 @@ TEST(TrajectoryFile, FormsOfTextAreTaken) {
 
 TEST(TrajectoryFile, AByteOrderMarkIsPassedOver) {
   EXPECT_EQ(read("\xEF\xBB\xBF" + std::string("1.5 1 2 3 0 0 0 1")).front().stamp, 1500000000);
-  EXPECT_THAT(problemOf("\xEF\xBB\xBF" + std::string("x")), StartsWith("poses.txt:1:1: "));
+  EXPECT_THAT(trajectoryProblem("\xEF\xBB\xBF" + std::string("x")), StartsWith("poses.txt:1:1: "));
 }
 
 TEST(TrajectoryFile, ErrorsNamePlaceFindingAndExpectation) {
-  const auto tum = [](const std::string& text) { return problemOf(text, TrajectoryFormat::tum); };
+  const auto tum = [](const std::string& text) {
+    return trajectoryProblem(text, TrajectoryFormat::tum);
+  };
   const std::string good = "1 0 0 0 0 0 0 1\n";
   EXPECT_EQ(
       tum(good + "2 0 0 0 0 0 0\n"),
@@ -226,7 +221,7 @@ TEST(TrajectoryFile, ErrorsNamePlaceFindingAndExpectation) {
   EXPECT_THAT(tum(std::string(1000000, '7')), HasSubstr("7777..."));
   EXPECT_EQ(tum("# nothing\n"),
             "poses.txt: has no poses, expected timestamp tx ty tz qx qy qz qw (TUM)");
-  EXPECT_THAT(problemOf(""), StartsWith("poses.txt: has no poses, expected a line of TUM"));
+  EXPECT_THAT(trajectoryProblem(""), StartsWith("poses.txt: has no poses, expected a line of TUM"));
   for (const char* bad : {"+", "-", ".", "-.", "1e", "1e+", "+-1", "0x1", "1.2.3", "1,", "--1",
                           "+nan", "1_0", "\xC2\xA0"}) {
     EXPECT_THAT(tum(std::string("1 0 ") + bad + " 0 0 0 0 1 1"),
@@ -236,34 +231,36 @@ TEST(TrajectoryFile, ErrorsNamePlaceFindingAndExpectation) {
 }
 
 TEST(TrajectoryFile, ErrorsOfKittiAndEuroc) {
-  EXPECT_THAT(problemOf("1 0 0 0 0 1 0 0 0 0 1.1 0\n"),
+  EXPECT_THAT(trajectoryProblem("1 0 0 0 0 1 0 0 0 0 1.1 0\n"),
               AllOf(StartsWith("poses.txt:1:1: the matrix is 0.1"), HasSubstr("at most 0.001")));
-  EXPECT_THAT(problemOf("1 0 0 0 0 1 0 0 0 0 -1 0\n"), HasSubstr("the matrix is 2"));  // reflection
-  EXPECT_THAT(problemOf("0 0 0 0 0 0 0 0 0 0 0 0\n"), HasSubstr("the matrix is"));
-  EXPECT_THAT(problemOf(std::string(kKitti) + "1 0 0\n"),
+  EXPECT_THAT(trajectoryProblem("1 0 0 0 0 1 0 0 0 0 -1 0\n"),
+              HasSubstr("the matrix is 2"));  // reflection
+  EXPECT_THAT(trajectoryProblem("0 0 0 0 0 0 0 0 0 0 0 0\n"), HasSubstr("the matrix is"));
+  EXPECT_THAT(trajectoryProblem(std::string(kKitti) + "1 0 0\n"),
               StartsWith("poses.txt:3:6: the line ends"));
-  EXPECT_THAT(problemOf("0,0,0,0,1,0,0,0,7\n1,0,0,0,1,0,0,0\n"),
+  EXPECT_THAT(trajectoryProblem("0,0,0,0,1,0,0,0,7\n1,0,0,0,1,0,0,0\n"),
               HasSubstr("2:16: the line has 8 numbers, the first one 9"));
-  EXPECT_THAT(problemOf("0,0,0,0,1,0,0,0,x\n"), HasSubstr("'x', expected a finite number"));
-  EXPECT_THAT(problemOf("1403715273.26,0,0,0,1,0,0,0\n", TrajectoryFormat::euroc),
+  EXPECT_THAT(trajectoryProblem("0,0,0,0,1,0,0,0,x\n"), HasSubstr("'x', expected a finite number"));
+  EXPECT_THAT(trajectoryProblem("1403715273.26,0,0,0,1,0,0,0\n", TrajectoryFormat::euroc),
               HasSubstr("is no whole number of nanoseconds; is it in seconds?"));
   EXPECT_EQ(read("1403715273262142976.0,0,0,0,1,0,0,0\n").front().stamp, 1403715273262142976);
 }
 
 TEST(TrajectoryFile, NanosecondsForSecondsAreRecognised) {
   const std::string orb_slam3 = "1403636579763555584.000000 0 0 0 0 0 0 1\n";
-  EXPECT_THAT(problemOf(orb_slam3),
+  EXPECT_THAT(trajectoryProblem(orb_slam3),
               AllOf(StartsWith("poses.txt:1:1: '1403636579763555584.000000' "),
                     HasSubstr("is it in nanoseconds?")));
   TrajectoryFileOptions options;
   options.tum_stamps = StampUnit::nanoseconds;
   EXPECT_EQ(parseTrajectory(orb_slam3, "", options).front().stamp, 1403636579763555584);
-  EXPECT_THAT(problemOf("1403636579763 0 0 0 0 0 0 1\n"), HasSubstr("is it in milliseconds?"));
+  EXPECT_THAT(trajectoryProblem("1403636579763 0 0 0 0 0 0 1\n"),
+              HasSubstr("is it in milliseconds?"));
 }
 
 TEST(TrajectoryFile, AStampTwiceIsRefusedWithBothLines) {
   const std::string text = "3 1 0 0 0 0 0 1\n1 2 0 0 0 0 0 1\n# c\n3.000 3 0 0 0 0 0 1\n";
-  EXPECT_EQ(problemOf(text),
+  EXPECT_EQ(trajectoryProblem(text),
             "poses.txt:4:1: has the stamp 3.000000000 s, as line 1 has, expected each stamp once");
   TrajectoryFileOptions options;
   options.duplicates = DuplicateStamps::keep_first;
@@ -319,7 +316,7 @@ TEST(TrajectoryFile, WhatIsNotFiniteIsNotWritten) {
 TEST(TrajectoryFile, AFileCutAnywhereIsReadOrRefused) {
   for (const TrajectoryFormat format :
        {TrajectoryFormat::tum, TrajectoryFormat::kitti, TrajectoryFormat::euroc}) {
-    const std::string whole = printTrajectory(drawn(5, 4), format);
+    const std::string whole = printTrajectory(drawnTrajectory(5, 4), format);
     const Trajectory poses = read(whole, format);
     for (std::size_t size = 0; size <= whole.size(); ++size) {
       try {
@@ -356,7 +353,7 @@ struct CommaPoint : std::numpunct<char> {
 };
 
 TEST(TrajectoryFile, TheLocaleChangesNothing) {
-  const Trajectory t = drawn(20, 5);
+  const Trajectory t = drawnTrajectory(20, 5);
   const std::string text = printTrajectory(t);
   const std::string old_c = std::setlocale(LC_ALL, nullptr);
   const std::locale old = std::locale::global(std::locale(std::locale(), new CommaPoint));
@@ -387,7 +384,7 @@ class OnDisk : public testing::Test {
 };
 
 TEST_F(OnDisk, FilesComeBack) {
-  const Trajectory t = drawn(100, 6);
+  const Trajectory t = drawnTrajectory(100, 6);
   const std::string file = path("any");
   for (const TrajectoryFormat format : {TrajectoryFormat::tum, TrajectoryFormat::euroc}) {
     gslam::writeTrajectory(file, t, format);
@@ -404,7 +401,7 @@ TEST_F(OnDisk, FilesComeBack) {
 }
 
 TEST_F(OnDisk, ALinkStaysOneAndADeviceToo) {
-  const Trajectory t = drawn(10, 6);
+  const Trajectory t = drawnTrajectory(10, 6);
   const std::string file = path("file"), link = path("link");
   gslam::writeTrajectory(file, Trajectory());
   ASSERT_EQ(::symlink(file.c_str(), link.c_str()), 0);
@@ -417,7 +414,7 @@ TEST_F(OnDisk, ALinkStaysOneAndADeviceToo) {
 }
 
 TEST_F(OnDisk, KittiGetsItsTimesFromTheOtherFile) {
-  const Trajectory t = drawn(100, 7);
+  const Trajectory t = drawnTrajectory(100, 7);
   const std::string poses = path("poses"), times = path("times");
   gslam::writeTrajectory(poses, t, TrajectoryFormat::kitti);
   gslam::writeStamps(times, t);

@@ -20,12 +20,12 @@ SE3d poseAt(double x) {
   return SE3d(gslam::SO3d(), {{x, 0, 0}});
 }
 
-std::uint64_t distance(std::int64_t a, std::int64_t b) {
+std::uint64_t timeBetween(std::int64_t a, std::int64_t b) {
   return a < b ? std::uint64_t(b) - std::uint64_t(a) : std::uint64_t(a) - std::uint64_t(b);
 }
 
 // Stamps in any order, each once, near one another or as far apart as can be.
-std::vector<StampedPose> drawn(std::mt19937_64& random, int count) {
+std::vector<StampedPose> drawnPoses(std::mt19937_64& random, int count) {
   std::vector<StampedPose> poses;
   while (static_cast<int>(poses.size()) < count) {
     const std::int64_t stamp = static_cast<std::int64_t>(random()) >> (random() % 2 == 0 ? 0 : 57);
@@ -51,7 +51,7 @@ std::vector<std::int64_t> questions(std::mt19937_64& random,
 TEST(Trajectory, IsOrderedHoweverItWasMade) {
   std::mt19937_64 random(1);
   for (int count = 0; count < 40; ++count) {
-    const std::vector<StampedPose> poses = drawn(random, count);
+    const std::vector<StampedPose> poses = drawnPoses(random, count);
     const Trajectory whole(poses);
     Trajectory added;
     for (const StampedPose& p : poses) added.add(p.stamp, p.pose);
@@ -72,7 +72,7 @@ TEST(Trajectory, IsOrderedHoweverItWasMade) {
 TEST(Trajectory, FindsWhatASearchThroughAllFinds) {
   std::mt19937_64 random(2);
   for (int count = 0; count < 40; ++count) {
-    const Trajectory trajectory(drawn(random, count));
+    const Trajectory trajectory(drawnPoses(random, count));
     const std::vector<StampedPose> all(trajectory.begin(), trajectory.end());
     for (const std::int64_t stamp : questions(random, all)) {
       const auto first = std::find_if(all.begin(), all.end(),
@@ -80,7 +80,7 @@ TEST(Trajectory, FindsWhatASearchThroughAllFinds) {
       ASSERT_EQ(trajectory.lowerBound(stamp) - trajectory.begin(), first - all.begin());
       const auto nearest =
           std::min_element(all.begin(), all.end(), [&](const StampedPose& a, const StampedPose& b) {
-            return distance(a.stamp, stamp) < distance(b.stamp, stamp);
+            return timeBetween(a.stamp, stamp) < timeBetween(b.stamp, stamp);
           });
       const StampedPose* const found = trajectory.nearest(stamp);
       if (all.empty()) {
@@ -95,7 +95,7 @@ TEST(Trajectory, FindsWhatASearchThroughAllFinds) {
 TEST(Trajectory, InterpolatesBetweenThePosesAroundAStamp) {
   std::mt19937_64 random(3);
   for (int count = 0; count < 30; ++count) {
-    const Trajectory trajectory(drawn(random, count));
+    const Trajectory trajectory(drawnPoses(random, count));
     const std::vector<StampedPose> all(trajectory.begin(), trajectory.end());
     for (const std::int64_t stamp : questions(random, all)) {
       SE3d expected = poseAt(-1), pose = poseAt(-1);
@@ -107,8 +107,8 @@ TEST(Trajectory, InterpolatesBetweenThePosesAroundAStamp) {
           inside = true;
           gap = 0;
         } else if (i > 0 && all[i - 1].stamp < stamp && stamp < all[i].stamp) {
-          gap = distance(all[i - 1].stamp, all[i].stamp);
-          const double part = double(distance(all[i - 1].stamp, stamp)) / double(gap);
+          gap = timeBetween(all[i - 1].stamp, all[i].stamp);
+          const double part = double(timeBetween(all[i - 1].stamp, stamp)) / double(gap);
           expected = gslam::interpolateSplit(all[i - 1].pose, all[i].pose, part);
           inside = gap <= std::uint64_t(INT64_MAX);
           if (!inside) expected = poseAt(-1);
