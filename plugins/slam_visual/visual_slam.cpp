@@ -11,6 +11,7 @@
 #include "options.h"
 #include "pipeline.h"
 #include "scene/frame_log.h"
+#include "tracking/feature_picture.h"
 
 namespace visual {
 namespace {
@@ -28,6 +29,7 @@ class VisualSlam : public gslam::Slam {
     rig_ = setup.sensors;
     pose_ = setup.messenger.advertise<TrackedPose>("pose");
     map_ = setup.messenger.advertise<gslam::Map>("map");
+    image_ = setup.messenger.advertise<gslam::CameraImage>("image");
   }
 
   void feed(const std::shared_ptr<const gslam::Frame>& frame) override {
@@ -46,6 +48,9 @@ class VisualSlam : public gslam::Slam {
       before_ = tracked.state;
     }
     pose_.publish({frame->id, frame->stamp, tracked.T_world_body, tracked.state});
+    if (image_.subscriberCount() > 0) {
+      image_.publish(drawFeatures(*frame, *view, maker_->eye(), tracked));
+    }
     if (tracked.is_keyframe_due && map_.subscriberCount() > 0) map_.publish(map());
   }
 
@@ -79,6 +84,7 @@ class VisualSlam : public gslam::Slam {
   TrackingState before_ = TrackingState::starting;
   gslam::Publisher<TrackedPose> pose_;
   gslam::Publisher<gslam::Map> map_;
+  gslam::Publisher<gslam::CameraImage> image_;
 };
 
 }  // namespace

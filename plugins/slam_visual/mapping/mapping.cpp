@@ -45,8 +45,13 @@ void Mapping::improve(KeyframeId id, bool is_hurried) {
 
 void Mapping::close(const Loop& loop) {
   const LoopReport report = closeLoop(world_, loop, options_);
-  GSLAM_LOG(info) << "loop closed from keyframe " << std::uint32_t(loop.here) << " to "
-                  << std::uint32_t(loop.there) << ": " << report.merged
+  const std::string loop_text = "keyframe " + std::to_string(std::uint32_t(loop.here)) + " to " +
+                                std::to_string(std::uint32_t(loop.there));
+  if (!report.is_closed) {
+    GSLAM_LOG(warning) << "loop from " << loop_text << " left open: " << report.optimizer;
+    return;
+  }
+  GSLAM_LOG(info) << "loop closed from " << loop_text << ": " << report.merged
                   << " points merged, moved by " << report.moved << " m, " << report.optimizer;
 }
 
