@@ -77,13 +77,16 @@ function(_gslam_add_programs name standard)
   if(GSLAM_BUILD_BENCH AND benches)
     gslam_add_bench(${name}_bench SOURCES ${benches} LINK GSLAM::${name} STANDARD ${standard})
   endif()
-  if(GSLAM_BUILD_FUZZ)
-    file(GLOB fuzz_targets CONFIGURE_DEPENDS fuzz/*.cpp)
-    foreach(source IN LISTS fuzz_targets)
-      get_filename_component(fuzz_target ${source} NAME_WE)
+  file(GLOB fuzz_targets CONFIGURE_DEPENDS fuzz/*.cpp)
+  foreach(source IN LISTS fuzz_targets)
+    get_filename_component(fuzz_target ${source} NAME_WE)
+    if(GSLAM_BUILD_FUZZ)
       _gslam_add_fuzz(${name} ${fuzz_target} ${source} ${standard})
-    endforeach()
-  endif()
+    elseif(GSLAM_BUILD_TESTS AND NOT name IN_LIST GSLAM_TESTED_ELSEWHERE
+           AND NOT GSLAM_SANITIZE STREQUAL "thread")
+      _gslam_add_replay(${name} ${fuzz_target} ${source})
+    endif()
+  endforeach()
   if(GSLAM_BUILD_EXAMPLES AND NOT name IN_LIST GSLAM_TESTED_ELSEWHERE)
     foreach(source IN LISTS examples)
       get_filename_component(example ${source} NAME_WE)
@@ -143,8 +146,18 @@ function(_gslam_keep_threaded sources)
   set(${sources} "${kept}" PARENT_SCOPE)
 endfunction()
 
-# Replays the seeds and fuzzes for 10 s; for a minute in the full tier. What is found stays in the
-# build folder.
+# The seeds of a fuzz target, fed to it in every build that has tests.
+function(_gslam_add_replay name target source)
+  set(program ${name}_replay_${target})
+  add_executable(${program} ${source} "${GSLAM_SOURCE_ROOT}/tests/harness/replay.cpp")
+  target_link_libraries(${program} PRIVATE GSLAM::${name})
+  _gslam_set_up_program(${program} 17)
+  add_test(NAME ${name}.replay.${target}
+    COMMAND ${program} "${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/${target}")
+  set_tests_properties(${name}.replay.${target} PROPERTIES LABELS ${name})
+endfunction()
+
+# Fuzzes for a minute, from the seeds on. What is found stays in the build folder.
 function(_gslam_add_fuzz name target source standard)
   set(program ${name}_fuzz_${target})
   set(seeds "${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/${target}")
@@ -156,12 +169,8 @@ function(_gslam_add_fuzz name target source standard)
   target_link_options(${program} PRIVATE -fsanitize=fuzzer)
   _gslam_set_up_program(${program} ${standard})
   set(fuzz ${program} -artifact_prefix=${found}/ -print_final_stats=1 -timeout=10)
-  add_test(NAME ${name}.fuzz.${target}.seeds COMMAND ${fuzz} -runs=0 ${seeds})
-  add_test(NAME ${name}.fuzz.${target}.10s COMMAND ${fuzz} -max_total_time=10 ${found} ${seeds})
   add_test(NAME ${name}.fuzz.${target}.60s COMMAND ${fuzz} -max_total_time=60 ${found} ${seeds})
-  set_tests_properties(${name}.fuzz.${target}.seeds ${name}.fuzz.${target}.10s PROPERTIES
-    LABELS "fuzz;${name}")
-  set_tests_properties(${name}.fuzz.${target}.60s PROPERTIES LABELS "fuzz;${name};full")
+  set_tests_properties(${name}.fuzz.${target}.60s PROPERTIES LABELS "fuzz;${name}")
 endfunction()
 
 # gslam_add_bench(<target> SOURCES ... [LINK ...] [STANDARD 11]): a Google Benchmark program.

@@ -1,12 +1,15 @@
 #include <gslam/evaluation/cost.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
+
+#include "format.h"
 
 namespace gslam {
 inline namespace v1 {
 namespace {
+
+using evaluation::format;
 
 constexpr double kMegabyte = 1e6;
 
@@ -111,15 +114,6 @@ void describeMachine(const ResourceReport& r, Svar& out) {
                           g.has_memory ? Svar(double(g.peak_memory_bytes) / kMegabyte) : Svar()}})
                   : Svar());
   if (!has_gpu) out.set("why_no_gpu", r.seconds > 0 ? g.why_not : "it was not measured");
-}
-
-// Of what snprintf() makes, any length.
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  const int size = std::snprintf(nullptr, 0, pattern, values...);
-  std::string text(std::size_t(std::max(size, 0)), '\0');
-  std::snprintf(&text[0], text.size() + 1, pattern, values...);
-  return text;
 }
 
 std::string line(const std::string& name, const std::string& text) {

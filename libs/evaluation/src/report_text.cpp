@@ -1,20 +1,12 @@
 #include <gslam/evaluation/evaluate.h>
 
-#include <cstdarg>
-#include <cstdio>
+#include "format.h"
 
 namespace gslam {
 inline namespace v1 {
 namespace {
 
-std::string format(const char* pattern, ...) {
-  char text[256];
-  va_list values;
-  va_start(values, pattern);
-  std::vsnprintf(text, sizeof(text), pattern, values);
-  va_end(values);
-  return text;
-}
+using evaluation::format;
 
 // A table of errors, with the coverage in each line.
 class TextTable {

@@ -133,9 +133,9 @@ class TwoViewTrustRegion final : public TrustRegionProblem {
   }
 
   double evaluateStep() override {
-    constexpr double kMostTurn = 1e3;
+    constexpr double kMostStep = 1e3;
     for (std::size_t i = 3; i < 6; ++i) {
-      if (!(std::fabs(step_[i]) < kMostTurn)) return std::numeric_limits<double>::infinity();
+      if (!(std::fabs(step_[i]) < kMostStep)) return std::numeric_limits<double>::infinity();
     }
     candidate_ = T_ * SE3d::exp(step_);
     if (!has_scale_) {
