@@ -162,6 +162,10 @@ gslam::DatasetFactory carouselFactory() {
   factory.description = "A vehicle on a circle, computed: a camera, an IMU, exact ground truth";
   factory.parameters = gslam::Svar::object(
       {{"radius", 2.0}, {"duration", 10.0}, {"camera_rate", 20.0}, {"imu_rate", 200.0}});
+  factory.help = gslam::Svar::object({{"radius", "of the circle, metres"},
+                                      {"duration", "of one round, seconds"},
+                                      {"camera_rate", "images a second"},
+                                      {"imu_rate", "samples a second"}});
   factory.open = [](const std::string& path, const gslam::Svar& parameters) {
     if (path != "carousel" && path != "carousel://") {
       throw gslam::FileError(path, "is no carousel, which is computed: expected the name alone");

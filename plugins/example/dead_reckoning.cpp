@@ -78,6 +78,7 @@ gslam::SlamFactory deadReckoningFactory() {
   factory.name = "dead_reckoning";
   factory.description = "Adds up what the IMU measures, from rest on; drifts";
   factory.parameters = gslam::Svar::object({{"gravity", 9.81}});
+  factory.help = gslam::Svar::object({{"gravity", "m/s^2"}});
   factory.needs.cameras = 0;
   factory.needs.imu = true;
   factory.make = [] { return std::unique_ptr<gslam::Slam>(new DeadReckoning); };

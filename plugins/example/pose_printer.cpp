@@ -45,6 +45,7 @@ gslam::ApplicationFactory posePrinterFactory() {
   factory.name = "pose_printer";
   factory.description = "Prints the poses of all SLAM systems";
   factory.parameters = gslam::Svar::object({{"every", 20}});
+  factory.help = gslam::Svar::object({{"every", "one of so many poses is printed"}});
   factory.make = [] { return std::unique_ptr<gslam::Application>(new PosePrinter); };
   return factory;
 }

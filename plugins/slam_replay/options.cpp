@@ -123,6 +123,34 @@ gslam::Svar defaultParameters() {
                               {"fault_at", 0}});
 }
 
+gslam::Svar parameterHelp() {
+  return gslam::Svar::object(
+      {{"trajectory", "the file that is replayed: TUM, KITTI or EuRoC"},
+       {"max_gap_s", "widest gap that is interpolated, seconds; 0: any"},
+       {"noise_m", "standard deviation of each coordinate"},
+       {"noise_deg", "standard deviation about each axis"},
+       {"seed", "of the noise"},
+       {"scale", "of all lengths"},
+       {"drift_percent", "of the way, along x of the world"},
+       {"drift_deg_per_m", "of the heading, about z of the world"},
+       {"start_after", "frames before the first pose"},
+       {"losses", "such as 100-149,200-209:guessed,2.5s-3s:none"},
+       {"delay_ms", "that feed() takes longer"},
+       {"latency_ms", "that the answer comes behind feed()"},
+       {"strays", "poses a frame of frames that there are not"},
+       {"stamp_error_s", "by which stamps of poses are wrong"},
+       {"keyframe_every", "tracked frames from keyframe to keyframe; 0: no map"},
+       {"corrects", "whether all poses come again at the end, without noise"},
+       {"allocations", "calls of malloc() a frame"},
+       {"allocation_bytes", "of each"},
+       {"cpu_ms", "CPU time a frame of each thread"},
+       {"cpu_threads", "that spend it"},
+       {"grow_mb", "memory a frame that is kept, 10^6 bytes"},
+       {"fault", "none, signal, abort, exit, throw, hang"},
+       {"fault_in", "the call: configure, feed or finish"},
+       {"fault_at", "the number of the frame, of feed"}});
+}
+
 Options readOptions(const gslam::Svar& parameters) {
   Options options;
   options.poses = readPoses(parameters);

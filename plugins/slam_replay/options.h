@@ -64,6 +64,8 @@ struct Options {
 
 /// What the user may set, with what holds unless he does.
 gslam::Svar defaultParameters();
+/// What each of them means.
+gslam::Svar parameterHelp();
 
 /// @throws ArgumentError that names the parameter, what is wrong and what is expected
 Options readOptions(const gslam::Svar& parameters);

@@ -131,6 +131,7 @@ gslam::SlamFactory replayFactory() {
   factory.name = "replay";
   factory.description = "Answers with the poses of a file, with known errors, cost and faults";
   factory.parameters = defaultParameters();
+  factory.help = parameterHelp();
   factory.needs.cameras = 0;
   factory.make = [] { return std::unique_ptr<gslam::Slam>(new Replay); };
   return factory;

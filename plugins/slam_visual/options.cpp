@@ -82,6 +82,35 @@ Svar defaultParameters() {
                        {"loop_consistent", o.loop.consistent}});
 }
 
+Svar parameterHelp() {
+  return Svar::object(
+      {{"sensor", "mono, stereo, rgbd; auto: depth, else a pair, else one camera"},
+       {"threaded", "tracking, mapping and loops in threads of their own"},
+       {"workers", "threads that share the work of one frame; 0: all"},
+       {"seed", "of samples"},
+       {"depth_baseline", "of the second camera that stands for depth, metres"},
+       {"detector", "orb, sift, akaze, brisk, kaze"},
+       {"features", "wanted in an image"},
+       {"scale", "from one level of the pyramid to the next"},
+       {"levels", "of the pyramid"},
+       {"corner", "contrast of a corner, grey levels"},
+       {"least_corner", "contrast where there is no corner otherwise, grey levels"},
+       {"window", "around the predicted pixel, pixels"},
+       {"least_inliers", "of a pose that counts"},
+       {"keyframe_ratio", "a keyframe is due below this part of the reference's points"},
+       {"keyframe_gap", "frames between two keyframes, at least"},
+       {"most_gap", "frames between two keyframes, at most"},
+       {"backend", "of the optimizer; empty: its choice"},
+       {"neighbours", "keyframes in which points are searched"},
+       {"bundle", "keyframes that a local bundle adjustment moves"},
+       {"far_baselines", "depth beyond so many baselines is no position"},
+       {"loops", "whether loops are closed"},
+       {"adjust_all", "whether all is adjusted after a loop"},
+       {"vocabulary", "a file; empty: trained on the first keyframes"},
+       {"loop_matches", "points of a loop, at least"},
+       {"loop_consistent", "keyframes in a row that see a loop"}});
+}
+
 Options readOptions(const Svar& p) {
   Options o;
   o.sensor = choice(p, "sensor", {"auto", "mono", "stereo", "rgbd"});

@@ -94,6 +94,7 @@ gslam::SlamFactory visualFactory() {
   factory.name = "visual";
   factory.description = "Features, keyframes, loops: for a camera, a stereo pair or RGB-D";
   factory.parameters = defaultParameters();
+  factory.help = parameterHelp();
   factory.needs.cameras = 1;
   factory.make = [] { return std::unique_ptr<gslam::Slam>(new VisualSlam); };
   return factory;

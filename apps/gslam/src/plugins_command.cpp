@@ -1,7 +1,11 @@
 #include <gslam/core/plugins.h>
 #include <gslam/svar/json.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include "command.h"
 #include "options.h"
@@ -12,13 +16,21 @@ namespace {
 using gslam::Plugin;
 using gslam::Svar;
 
+constexpr std::size_t kHelpColumn = 34;
+
 template <class Factory>
 void printFactory(const char* kind, const Factory& factory, const std::string& needs) {
   std::cout << "  " << kind << ' ' << factory.name << ": " << factory.description << '\n';
   if (!needs.empty()) std::cout << "    needs " << needs << '\n';
   if (factory.parameters.isNull()) return;
   for (const Svar::Member& parameter : factory.parameters.members()) {
-    std::cout << "    " << parameter.first << " = " << gslam::printJson(parameter.second) << '\n';
+    std::string line = "    " + parameter.first + " = " + gslam::printJson(parameter.second);
+    const std::string help = factory.help.template get<std::string>(parameter.first, "");
+    if (!help.empty()) {
+      line.resize(std::max(line.size() + 2, kHelpColumn), ' ');
+      line += help;
+    }
+    std::cout << line << '\n';
   }
 }
 

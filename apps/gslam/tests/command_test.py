@@ -87,13 +87,14 @@ class Plugins(Folder):
         self.assertIn("dataset carousel", result.stdout)
         self.assertIn("SLAM dead_reckoning", result.stdout)
         self.assertIn("needs an IMU", result.stdout)
-        self.assertIn("radius = 2.0", result.stdout)
+        self.assertRegex(result.stdout, r"radius = 2\.0 +of the circle, metres\n")
 
     def test_json(self):
         facts = json.loads(self.check(gslam("plugins", "--json")).stdout)
         example = next(p for p in facts["plugins"] if p["name"] == "example")
         self.assertEqual(example["slams"][0]["needs"]["imu"], True)
         self.assertEqual(example["datasets"][0]["parameters"]["radius"], 2.0)
+        self.assertEqual(example["datasets"][0]["help"]["radius"], "of the circle, metres")
 
     def test_refused_ones_are_named_with_the_reason(self):
         (self.folder / "libgslam_broken.so").write_text("no library")

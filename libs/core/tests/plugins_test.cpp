@@ -414,6 +414,7 @@ TEST(Plugins, AreDescribedForMachines) {
   EXPECT_EQ(all.get<std::string>("plugins.2.version"), "2.3.4");
   EXPECT_EQ(all.get<std::string>("plugins.2.slams.0.name"), "toy");
   EXPECT_EQ(all.get<int>("plugins.2.slams.0.parameters.keep"), 0);
+  EXPECT_EQ(all.get<std::string>("plugins.2.slams.0.help.keep"), "frames that are kept");
   EXPECT_TRUE(all.get<bool>("plugins.2.slams.0.needs.imu"));
   EXPECT_EQ(all.get<int>("plugins.2.slams.0.needs.cameras"), 1);
   EXPECT_EQ(all["refused"].size(), 1u);

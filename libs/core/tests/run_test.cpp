@@ -1,10 +1,12 @@
 #include <gmock/gmock.h>
 #include <gslam/core/registry.h>
 #include <gslam/core/run.h>
+#include <gslam/svar/json.h>
 
 #include <cmath>
 #include <memory>
 #include <stdexcept>
+#include <vector>
 
 #include "scripted_slam.h"
 
@@ -18,6 +20,7 @@ using gslam::Player;
 using gslam::Recorder;
 using gslam::RunResult;
 using gslam::SE3d;
+using gslam::Svar;
 using gslam::TrackedPose;
 using gslam::TrackingState;
 
@@ -163,6 +166,27 @@ TEST(Registry, RefusesWhatCannotBeUsed) {
   factory.make = nullptr;
   EXPECT_THROW(registry.add(factory), gslam::ArgumentError);
   EXPECT_EQ(registry.slams().size(), 1U);
+}
+
+TEST(Registry, HelpIsOfParametersThatThereAre) {
+  gslam::SlamFactory factory;
+  factory.name = "explained";
+  factory.make = [] { return std::unique_ptr<gslam::Slam>(); };
+  factory.parameters = Svar::object({{"rate", 2.5}, {"seed", 1}});
+  const std::vector<Svar> wrong = {"text", Svar::object({{"rate", 3}}),
+                                   Svar::object({{"speed", "m/s"}})};
+  for (const Svar& help : wrong) {
+    factory.help = help;
+    gslam::Registry registry;
+    EXPECT_THROW(registry.add(factory), gslam::ArgumentError) << gslam::printJson(help);
+  }
+  factory.help = Svar::object({{"rate", "poses a second"}});
+  gslam::Registry registry;
+  registry.add(factory);
+  EXPECT_EQ(registry.slams()[0].help.get<std::string>("rate"), "poses a second");
+  factory.name = "without_parameters";
+  factory.parameters = Svar();
+  EXPECT_THROW(registry.add(factory), gslam::ArgumentError);
 }
 
 TEST(Registry, AFactoryThatMakesNoneIsAnError) {

@@ -393,4 +393,12 @@ TEST_F(Replay, RefusesFilesThatAreNone) {
   EXPECT_THROW(run(gslam::Svar::object({{"trajectory", empty.path()}})), gslam::Error);
 }
 
+TEST(Options, EachParameterIsExplained) {
+  const Svar defaults = replay::defaultParameters(), help = replay::parameterHelp();
+  EXPECT_EQ(help.size(), defaults.size());
+  for (const Svar::Member& parameter : defaults.members()) {
+    EXPECT_FALSE(help.get<std::string>(parameter.first, "").empty()) << parameter.first;
+  }
+}
+
 }  // namespace

@@ -130,6 +130,10 @@ TEST(Options, NamesEveryParameterThatIsWrong) {
 TEST(Options, ThePluginHasTheSame) {
   const gslam::SlamFactory factory = visual::visualFactory();
   EXPECT_EQ(factory.parameters, defaultParameters());
+  EXPECT_EQ(factory.help.size(), factory.parameters.size());
+  for (const Svar::Member& parameter : factory.parameters.members()) {
+    EXPECT_GT(factory.help.get<std::string>(parameter.first, "").size(), 4U) << parameter.first;
+  }
   EXPECT_EQ(factory.name, "visual");
   EXPECT_FALSE(factory.description.empty());
 }

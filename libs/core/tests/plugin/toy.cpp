@@ -235,6 +235,7 @@ void addSlam(gslam::Registry& registry, const char* name, std::unique_ptr<gslam:
   slam.name = name;
   slam.description = "digests what it is given";
   slam.parameters = Svar::object({{"keep", 0}, {"seed", ""}});
+  slam.help = Svar::object({{"keep", "frames that are kept"}});
   slam.needs.imu = true;
   slam.make = maker;
   registry.add(slam);

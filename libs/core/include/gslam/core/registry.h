@@ -35,6 +35,7 @@ struct DatasetFactory {
   /// Opens one. `parameters` has those above, with the values the user wants. Throws an Error that
   /// names the file and what was expected.
   std::function<std::unique_ptr<Dataset>(const std::string& path, const Svar& parameters)> open;
+  Svar help;  ///< an object: what a parameter means, by its name; of none, some or all
 };
 
 /// A SLAM system, and how to make one.
@@ -44,6 +45,7 @@ struct SlamFactory {
   Svar parameters;                              ///< an object with the defaults
   SensorNeeds needs;                            ///< what it cannot do without
   std::function<std::unique_ptr<Slam>()> make;  ///< one that is not configured yet
+  Svar help;  ///< an object: what a parameter means, by its name; of none, some or all
 };
 
 /// An application, and how to make one.
@@ -52,6 +54,7 @@ struct ApplicationFactory {
   std::string description;                             ///< one sentence
   Svar parameters;                                     ///< an object with the defaults
   std::function<std::unique_ptr<Application>()> make;  ///< one that does not run yet
+  Svar help;  ///< an object: what a parameter means, by its name; of none, some or all
 };
 
 /// A SLAM system that a factory makes.
@@ -68,7 +71,8 @@ class Registry {
   /// @{
   /// Adds a factory.
   /// @throws ArgumentError when its name is empty, has other characters than letters, digits and _
-  ///   (it is part of topics), or is taken by one of its kind; when what makes it is missing
+  ///   (it is part of topics), or is taken by one of its kind; when what makes it is missing; when
+  ///   its help is no object of texts, or explains a parameter that it does not have
   void add(DatasetFactory factory) {
     check(datasets_, factory, factory.open != nullptr, "dataset");
     datasets_.push_back(std::move(factory));
@@ -103,6 +107,22 @@ class Registry {
     for (const Factory& other : known) {
       if (other.name == added.name) {
         throw ArgumentError(added.name, "is the name of another " + kind + " already");
+      }
+    }
+    checkHelp(added.name, added.parameters, added.help);
+  }
+
+  static void checkHelp(const std::string& name, const Svar& parameters, const Svar& help) {
+    if (help.isNull()) return;
+    if (help.type() != SvarType::object)
+      throw ArgumentError("help", "of " + name + " is no object");
+    for (const Svar::Member& one : help.members()) {
+      if (one.second.type() != SvarType::string) {
+        throw ArgumentError("help", "of " + name + " for '" + one.first + "' is no text");
+      }
+      if (parameters.type() != SvarType::object || !parameters.contains(one.first)) {
+        throw ArgumentError("help", "of " + name + " explains '" + one.first +
+                                        "', which is none of its parameters");
       }
     }
   }

@@ -78,6 +78,7 @@ inline void writeFactory(MessageWriter& out, const SlamFactory& factory) {
   out.text(factory.name);
   out.text(factory.description);
   out.text(printJson(factory.parameters));
+  out.text(printJson(factory.help));
   out.raw(std::int32_t(factory.needs.cameras));
   writeBoolean(out, factory.needs.depth);
   writeBoolean(out, factory.needs.imu);
@@ -90,6 +91,7 @@ inline SlamFactory readFactory(MessageReader& in) {
   factory.name = in.text();
   factory.description = in.text();
   factory.parameters = parseJson(in.text(), "parameters");
+  factory.help = parseJson(in.text(), "help");
   factory.needs.cameras = in.number<std::int32_t>();
   factory.needs.depth = in.boolean();
   factory.needs.imu = in.boolean();

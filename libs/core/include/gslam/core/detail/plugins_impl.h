@@ -110,9 +110,11 @@ inline Svar describeNeeds(const SensorNeeds& needs) {
 
 template <class Factory>
 Svar describeFactory(const Factory& factory) {
-  return Svar::object({{"name", factory.name},
-                       {"description", factory.description},
-                       {"parameters", factory.parameters}});
+  Svar text = Svar::object({{"name", factory.name},
+                            {"description", factory.description},
+                            {"parameters", factory.parameters}});
+  if (!factory.help.isNull()) text.set("help", factory.help);
+  return text;
 }
 
 inline Svar describeFactory(const SlamFactory& factory) {
