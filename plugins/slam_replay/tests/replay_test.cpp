@@ -394,9 +394,9 @@ TEST_F(Replay, RefusesFilesThatAreNone) {
 }
 
 TEST(Options, EachParameterIsExplained) {
-  const Svar defaults = replay::defaultParameters(), help = replay::parameterHelp();
+  const gslam::Svar defaults = replay::defaultParameters(), help = replay::parameterHelp();
   EXPECT_EQ(help.size(), defaults.size());
-  for (const Svar::Member& parameter : defaults.members()) {
+  for (const gslam::Svar::Member& parameter : defaults.members()) {
     EXPECT_FALSE(help.get<std::string>(parameter.first, "").empty()) << parameter.first;
   }
 }
