@@ -207,8 +207,8 @@ TEST_P(VisualSlamModes, ManagesWithFramesInAnotherOrder) {
   // What looks like nothing that is known is lost, or begins a map anew.
   EXPECT_EQ(trackedAmong(run->live, 0, 14), 15U);
   EXPECT_GE(run->tracked(run->live), kFrames - 4);
-  // 7 cm were measured: every fourth motion is predicted in the wrong direction.
-  EXPECT_LT(errorOf(run->finals, kRgbd, false, source), 0.1);
+  // Once the frame behind the stray one was 40 cm off: it was predicted to go on as far.
+  EXPECT_LT(errorOf(run->finals, kRgbd, false, source), 0.03);
 }
 
 TEST_P(VisualSlamModes, ManagesWithFramesThatComeTwice) {

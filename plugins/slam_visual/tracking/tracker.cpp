@@ -90,27 +90,39 @@ bool Tracker::followMap(const View& view, const Scene& scene) {
   findVisible(scene, T_camera_world, local_map_.points(), 4 * window, sought_);
   matches_ = projector_.match(view, scene.eye, T_camera_world, sought_, {kLooseDistance, 0.8F});
   if (!fitter_.refine(view, scene, matches_, T_world_body_)) return false;
-  if (frames_since_keyframe_ < kMostCounted) {
-    for (const SoughtPoint& point : sought_) expected_.push_back(point.id);
-    for (const Match& match : matches_) found_.push_back(match.point);
-  }
   const std::size_t least = std::size_t(options_.tracking.least_inliers);
   // Of one that was just found again it takes more, but not more than it was found by.
   const bool is_young = frames_since_found_ < 30;
   return matches_.size() >= (is_young ? std::min(3 * least / 2, found_by_) : least);
 }
 
+// Where far less of the map is found than in the frame before, the motion may be a wrong one, after
+// a frame from elsewhere for example: then the reference is asked as well, and whoever finds more
+// is right.
+bool Tracker::follow(const View& view, const Scene& scene) {
+  recallLast(scene);
+  const double window = options_.tracking.window;
+  const bool is_moved =
+      (followLast(view, scene, scene.eye.kind == SensorKind::stereo ? window / 2 : window) ||
+       followLast(view, scene, 2 * window)) &&
+      followMap(view, scene);
+  if (is_moved && 2 * matches_.size() >= last_matches_.size()) return true;
+  const SE3d T_world_moved = T_world_body_;
+  std::vector<Match> moved;
+  std::vector<SoughtPoint> sought;
+  moved.swap(matches_);
+  sought.swap(sought_);
+  const bool is_near = followReference(view, scene) && followMap(view, scene);
+  if (!is_moved || (is_near && matches_.size() > moved.size())) return is_near;
+  T_world_body_ = T_world_moved;
+  matches_.swap(moved);
+  sought_.swap(sought);
+  return true;
+}
+
 Tracked Tracker::track(const std::shared_ptr<const View>& view, const Scene& scene,
                        bool is_mapper_idle) {
-  bool is_followed = false;
-  if (!is_lost_) {
-    recallLast(scene);
-    const double window = options_.tracking.window;
-    is_followed =
-        followLast(*view, scene, scene.eye.kind == SensorKind::stereo ? window / 2 : window) ||
-        followLast(*view, scene, 2 * window) || followReference(*view, scene);
-    if (is_followed) is_followed = followMap(*view, scene);
-  }
+  bool is_followed = !is_lost_ && follow(*view, scene);
   if (!is_followed && findAgain(*view, scene)) {
     frames_since_found_ = 0;
     found_by_ = matches_.size();
@@ -143,6 +155,10 @@ bool Tracker::findAgain(const View& view, const Scene& scene) {
 
 Tracked Tracker::keep(const std::shared_ptr<const View>& view, const Scene& scene,
                       bool is_mapper_idle) {
+  if (frames_since_keyframe_ < kMostCounted) {
+    for (const SoughtPoint& point : sought_) expected_.push_back(point.id);
+    for (const Match& match : matches_) found_.push_back(match.point);
+  }
   const bool has_motion = !is_lost_ && frames_since_found_ > 0;
   T_last_next_ = has_motion ? T_world_last_.inverse() * T_world_body_ : SE3d();
   reference_ = local_map_.referenceOf(scene, matches_);

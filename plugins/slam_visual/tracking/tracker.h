@@ -58,6 +58,7 @@ class Tracker {
 
  private:
   void recallLast(const Scene& scene);
+  bool follow(const View& view, const Scene& scene);
   bool followLast(const View& view, const Scene& scene, double window);
   bool followReference(const View& view, const Scene& scene);
   bool findAgain(const View& view, const Scene& scene);
