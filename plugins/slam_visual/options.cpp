@@ -30,7 +30,7 @@ int count(const Svar& parameters, const char* name, int least, int most) {
 
 std::string choice(const Svar& parameters, const char* name,
                    std::initializer_list<const char*> choices) {
-  const auto given = parameters.get<std::string>(name);
+  auto given = parameters.get<std::string>(name);
   std::string all;
   for (const char* one : choices) {
     if (given == one) return given;
@@ -41,7 +41,7 @@ std::string choice(const Svar& parameters, const char* name,
 
 // Said when the run begins, not when the first map is adjusted.
 std::string backend(const Svar& parameters) {
-  const auto given = parameters.get<std::string>("backend");
+  auto given = parameters.get<std::string>("backend");
   if (given.empty()) return given;
   std::string all;
   for (const std::string& one : gslam::optimizerBackends()) {

@@ -218,8 +218,7 @@ inline std::string versionProblems(const BuildFacts& plugin, const BuildFacts& h
                {"svar", plugin.svar, host.svar, false},
                {"geometry", plugin.geometry, host.geometry, false}};
   for (const auto& pair : pairs) {
-    const std::string problem =
-        versionProblem(pair.library, pair.plugin, pair.host, pair.same_minor);
+    std::string problem = versionProblem(pair.library, pair.plugin, pair.host, pair.same_minor);
     if (!problem.empty()) return problem;
   }
   return "";

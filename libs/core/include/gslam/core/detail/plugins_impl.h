@@ -314,7 +314,8 @@ inline void Plugins::connectLogs() {
 inline std::string Plugins::findFile(const std::string& name) const {
   for (const std::string& folder : folders_) {
     for (const char* const prefix : {"libgslam_", "lib", "gslam_", ""}) {
-      const std::string path = folder + "/" + prefix + name + ".so";
+      std::string path = folder;
+      path.append("/").append(prefix).append(name).append(".so");
       if (detail::fileKind(path) != detail::FileKind::none) return path;
     }
   }
@@ -347,7 +348,8 @@ inline bool Plugins::isNoneOrShadowed(const std::string& file,
 inline void Plugins::loadFolder(const std::string& folder) {
   for (const std::string& name : detail::namesIn(folder)) {
     if (!detail::isLibraryName(name)) continue;
-    const std::string path = folder + "/" + name;
+    std::string path = folder;
+    path.append("/").append(name);
     try {
       detail::FileIdentity file;
       if (detail::fileKind(path, &file) == detail::FileKind::file && findLoaded(file)) continue;
