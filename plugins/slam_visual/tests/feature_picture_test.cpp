@@ -66,11 +66,17 @@ TEST(FeaturePicture, IsMadeOnRequestOnly) {
   EXPECT_GT(greenAround(pictures[0], {160, 120}, 160), 1000);
 }
 
-TEST(FeaturePicture, FindsFeaturesOfARectifiedImage) {
-  Frame frame = *framesOf()[0];
-  CameraImage& photograph = frame.images[0];
+// Rectified into another camera, or only turned.
+class RectifiedPicture : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(SameCamera, RectifiedPicture, testing::Bool());
+
+TEST_P(RectifiedPicture, HasFeaturesWhereTheyAreInThePhotograph) {
+  const Frame frame = *framesOf()[0];
+  const CameraImage& photograph = frame.images[0];
   visual::Eye eye;
-  eye.camera = gslam::Camera::fromParameters("pinhole", 320, 240, {300, 300, 160, 120});
+  eye.camera = GetParam()
+                   ? photograph.camera
+                   : gslam::Camera::fromParameters("pinhole", 320, 240, {300, 300, 160, 120});
   eye.T_body_camera = photograph.T_body_camera * SE3d(SO3d::exp({{0.1, -0.05, 0.2}}), {});
   const Vec2d pixel{{200, 90}};
   gslam::Vec3d ray;

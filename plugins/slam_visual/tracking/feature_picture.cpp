@@ -40,11 +40,9 @@ class PixelMap {
   PixelMap(const Eye& eye, const CameraImage& photograph)
       : eye_(eye),
         photograph_(photograph),
-        is_same_(eye.camera == photograph.camera),
         R_photograph_eye_((photograph.T_body_camera.inverse() * eye.T_body_camera).rotation()) {}
 
   std::optional<Vec2d> operator()(const Vec2d& pixel) const {
-    if (is_same_) return pixel;
     Vec3d ray;
     Vec2d found;
     if (!eye_.camera.unproject(pixel, ray)) return std::nullopt;
@@ -55,7 +53,6 @@ class PixelMap {
  private:
   const Eye& eye_;
   const CameraImage& photograph_;
-  bool is_same_;
   gslam::SO3d R_photograph_eye_;
 };
 
